@@ -182,5 +182,34 @@ TEST(MovedObstacles, TakeABodyOffAnotherFace) {
         }
 }
 
+// Both edges of a hole as wide as the ball touch it at once, from opposite sides. It falls through,
+// or stays on them, and gains no energy.
+TEST(Squeezes, AHoleAsWideAsTheBallEndsNoRun) {
+    Dice dice(3);
+    for (int run = 0; run < 200; ++run) {
+        const double radius = dice.uniform(0.1, 0.5);
+        const double friction = dice.chance(0.5) ? 0.5 : 0;
+        World world = world_of("velocity_verlet", 30 << dice.whole(0, 2), 2, {0, -20});
+        for (const double side : {-1.0, 1.0}) {
+            const std::array<Shape, 3> shapes{
+                BoxShape{{2 * radius * side, -radius}, {2 * radius, 2 * radius}},
+                SegmentShape{{side * radius, 0}, {side * 5, 0}},
+                CircleShape{{2 * radius * side, -1}, radius}};
+            world.add_obstacle(
+                {.shape = shapes[static_cast<std::size_t>(run % 3)], .friction = friction});
+        }
+        const Entity ball = world.spawn({.position = {dice.uniform(-0.6, 0.6) * radius, 2 * radius},
+                                         .velocity = {dice.uniform(-0.5, 0.5), -dice.uniform(0, 8)},
+                                         .contact = Contact{radius}});
+        const auto energy = [&] {
+            const Vec3 v = world.velocity(ball);
+            return (v[0] * v[0] + v[1] * v[1]) / 2 + 20 * world.position(ball)[1];
+        };
+        const double before = energy();
+        ASSERT_NO_THROW(world.step(200)) << run;
+        EXPECT_LE(energy(), before + 1e-9) << run;
+    }
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -64,7 +64,8 @@ public:
         for (events_ = 0; left_ > 0; ++events_) {
             if (events_ == 2 * most_events) return Landed::unresolved;
             if (largest(state.x - from) > way_) return Landed::strayed;
-            squeezed_ = any_moved_ && (events_ >= most_moved_events || crowded_ > most_crowded);
+            squeezed_ = any_moved_ ? events_ >= most_moved_events || crowded_ > most_crowded
+                                   : crowded_ > most_crowded_at_rest;
             if (events_ >= most_events && !any_moved_) stop_in_corner(state);
             renew(state);
             if (any_renewed_ && crush(state)) continue;
@@ -105,8 +106,12 @@ private:
     static constexpr int squeezed_parts = 128;
     /// After this many such instants, a body between moving obstacles no longer bounces.
     static constexpr int most_crowded = 8;
+    /// The same between standing ones, such as the edges of a hole that is as wide as the body.
+    static constexpr int most_crowded_at_rest = 256;
     /// After this many impacts at one instant, a body between obstacles loses all speed into them.
     static constexpr int most_bounces_at_once = 16;
+    /// Moves out of obstacles by this many times their round-off are not listed.
+    static constexpr int hidden_lifts = 64;
     /// Flights shorter than this fraction of the rest of a step are not followed one by one.
     static constexpr T shortest_flight = T(1) / 64;
     /// At most so many are followed nevertheless, where friction stops the body between them.
@@ -143,8 +148,10 @@ private:
                 for (Near& one : nears_) renew_normal(one, state.x, start_);
             });
         } while (any_renewed_ && pass_if_caught(state, before, gap, noise));
+        const T way = largest(state.x - before);
         for (const Near& near : nears_)
-            if (near.lifted && !squeezed_) report(Meeting::lifted, near, start_, state, state.v);
+            if (near.lifted && !squeezed_ && way > hidden_lifts * noise(near))
+                report(Meeting::lifted, near, start_, state, state.v);
     }
     /// Whether a lifted body is back where it was `before`, because obstacles that it is in leave
     /// no room beside them, and now pass.

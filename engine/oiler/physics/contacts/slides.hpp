@@ -148,7 +148,9 @@ protected:
         const Vec direction = normalised(v == Vec{} ? pull : v);
         const T grip = support.grip(a);
         const bool free_to_turn = grip > 0 && support.size() + 2 <= Axes;
-        const Friction<T, Axes> friction{direction, rest, free_to_turn && is_across(v, pull)};
+        const Course<T, Axes>& course = near_of(support).obstacle.course;
+        const Friction<T, Axes> friction{direction, rest, free_to_turn && is_across(v, pull),
+                                         course.accelerates() ? &course : nullptr, start_};
         const auto move = [&](T tau) {
             State end = body_.slide(state, start_, tau, support, friction);
             if (!stands(support)) stay_beside(support, state.x, tau, end);
@@ -192,13 +194,18 @@ protected:
     /// One step of `tau` s on the curve of an obstacle: a push along its normal, of a size that
     /// lets a free step end on the curve, then the rest of the normal speed is taken away. This is
     /// RATTLE (Andersen, 1983) with any method for its free step, and has order min(order, 2).
-    /// Friction is not limited in each of both parts, because only their sum is positive, and keeps
-    /// its sense in a step beyond the stop, so that the speed passes 0 there.
-    [[nodiscard]] State hop(const State& state, const Near& near, T reaction, T tau) {
+    /// Friction may exceed its limit in each of both parts, because only their sum is positive, but
+    /// not `most_braked` m/s, and keeps its sense in a step beyond the stop, so that the speed
+    /// passes 0 there.
+    [[nodiscard]] State hop(const State& state, const Near& near, T reaction, T most_braked,
+                            T tau) {
         const Vec slip = normalised(state.v - near.velocity);
+        const auto braked = [&](T push) {
+            return std::clamp(near.friction * push, -most_braked, most_braked);
+        };
         const auto pushed = [&](T push) {
-            const Vec by = near.normal - slip * near.friction;
-            return body_.fly({state.x, state.v + by * push}, start_, tau);
+            const Vec by = near.normal * push - slip * braked(push);
+            return body_.fly({state.x, state.v + by}, start_, tau);
         };
         T push = reaction * tau / 2;
         State end = pushed(push);
@@ -220,7 +227,7 @@ protected:
         const Vec along = end.v + there.normal * last;
         const Vec slip_there = normalised(along - there.velocity);
         const T sense = dot(slip_there, slip) < 0 ? T(-1) : T(1);
-        end.v = along - slip_there * (sense * near.friction * last);
+        end.v = along - slip_there * (sense * braked(last));
         return end;
     }
     [[nodiscard]] std::optional<Leg> follow_curve(State& state, Near near, const Support& support,
@@ -235,11 +242,16 @@ protected:
         const T most_braking = T(1 << 20) * slip / left_;
         const T braking = std::min(near.friction * reaction - length(pull), most_braking);
         if (braking == most_braking) near.friction = (braking + length(pull)) / reaction;
-        const auto move = [&](T tau) { return hop(state, near, reaction, tau); };
-        const T speed = slip + length(pull) * left_;
-        const T most = most_turn * (near.obstacle.rounding + radius_) / speed;
-        const T tau =
-            braking > 0 ? std::min({left_, most, 4 * slip / braking}) : std::min(left_, most);
+        const auto move = [&](T tau) {
+            return hop(state, near, reaction, slip + length(pull) * tau, tau);
+        };
+        const T radius = near.obstacle.rounding + radius_;
+        const T most = most_turn * radius / (slip + length(pull) * left_);
+        // The curve bears nothing at a speed of √(reaction·radius): friction changes the speed by a
+        // part of that.
+        const T tau = braking > 0 ? std::min({left_, most, 4 * slip / braking,
+                                              std::sqrt(reaction * radius) / (32 * braking)})
+                                  : std::min(left_, most);
         Leg leg{move(tau), tau};
         end_at_others(state, support, a, leg, move);
         end_at_features(state, support, leg, move);

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "oiler/math/matrix.hpp"
+#include "oiler/physics/contacts/course.hpp"
 #include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/state.hpp"
 
@@ -160,6 +162,16 @@ public:
     [[nodiscard]] Vector onto(const Vector& x, Gap gap_of) const {
         return x + sum_of_normals(weights(gap_of));
     }
+    /// What a change of the push changes without_push and grip by, while the same touches bear.
+    [[nodiscard]] Vector change_without_push(const Vector& change) const {
+        return without_push(change) - without_push(Vector{});
+    }
+    [[nodiscard]] T change_of_grip(const Vector& change) const {
+        const Vector reaction = reactions(change) - reactions(Vector{});
+        T sum = 0;
+        for (std::size_t i = 0; i < count_; ++i) sum += planes_[i]->friction * reaction.axis[i];
+        return sum;
+    }
     /// The most that friction can hold, in the unit of the push.
     [[nodiscard]] T grip(const Vector& push) const {
         const Vector reaction = reactions(push);
@@ -190,6 +202,10 @@ private:
             }
             if (!pressed) break;
             support.planes_[support.count_++] = pressed;
+            // Between opposite obstacles there is no direction to push the body out.
+            if (std::isfinite(largest(support.reactions(push, excess)))) continue;
+            --support.count_;
+            break;
         }
         return support;
     }
@@ -199,12 +215,13 @@ private:
     }
     template <class Excess>
     [[nodiscard]] Vector without(const Vector& push, Excess excess) const {
+        const auto stands = [](const Touch* touch) {
+            constexpr bool is_velocity = std::is_same_v<Excess, OfVelocity<T, Axes>>;
+            return touch->velocity == Vector{} && (is_velocity || touch->inwards == 0);
+        };
         const bool bears_all =
             count_ == Axes && std::all_of(planes_.begin(), planes_.end(), stands);
         return bears_all ? Vector{} : push + sum_of_normals(reactions(push, excess));
-    }
-    [[nodiscard]] static bool stands(const Touch* touch) {
-        return touch->velocity == Vector{} && touch->inwards == 0;
     }
     /// Removes the touch with the smallest reaction if it is not positive.
     template <class Excess>
@@ -230,7 +247,14 @@ struct Friction {
     Vec<T, Axes> direction;  ///< at the start of a step, of length 1, relative to the surface
     Vec<T, Axes> surface;    ///< m/s
     bool turns;              ///< whether the body may slide in two directions
+    const Course<T, Axes>* course = nullptr;  ///< of the surface; null if it does not accelerate
+    T start = 0;                              ///< s, of the slide, in the course's time
 
+    /// By what the surface's acceleration has changed `tau` s after the start of the slide, m/s².
+    [[nodiscard]] Vec<T, Axes> change(T tau) const {
+        if (!course) return {};
+        return course->acceleration_at(start + tau) - course->acceleration_at(start);
+    }
     [[nodiscard]] Vec<T, Axes> against(const Vec<T, Axes>& v) const {
         const Vec<T, Axes> slip = v - surface;
         return turns && dot(slip, direction) > 0 ? -normalised(slip) : -direction;

@@ -127,19 +127,25 @@ protected:
         const Vec dragged = drag(state, a);
         if (dragged == Vec{}) return support;
         const auto pressed = Support::against(a + dragged, nears_, bears);
-        return pressed.size() > support.size() ? pressed : support;
+        const bool drags_on = std::ranges::all_of(nears_, [&](const Near& near) {
+            return !near.bears || !rubs(near, state, a) || pressed.has(near);
+        });
+        return drags_on || pressed.size() > support.size() ? pressed : support;
     }
-    /// The acceleration by friction, which may press the body into other obstacles where one of
-    /// them moves.
+    /// Whether friction acts on the body where it slips along an obstacle that bears it.
+    [[nodiscard]] bool rubs(const Near& near, const State& state, const Vec& a) const {
+        return near.friction > 0 && touches(near, state) && -OfPull<T, Axes>{}(near, a) > 0 &&
+               largest(state.v - near.velocity) > speed_noise(state);
+    }
+    /// The acceleration by friction, which may press the body into other obstacles, or off them,
+    /// where one of them moves.
     [[nodiscard]] Vec drag(const State& state, const Vec& a) const {
         Vec sum{};
         if (!any_moved_) return sum;
         for (const Near& near : nears_) {
-            if (near.friction == 0 || !touches(near, state)) continue;
-            const Vec slip = state.v - near.velocity;
-            const T reaction = -OfPull<T, Axes>{}(near, a);
-            if (reaction > 0 && largest(slip) > speed_noise(state))
-                sum -= normalised(slip) * (near.friction * reaction);
+            if (!rubs(near, state, a)) continue;
+            sum +=
+                normalised(state.v - near.velocity) * (near.friction * OfPull<T, Axes>{}(near, a));
         }
         return sum;
     }

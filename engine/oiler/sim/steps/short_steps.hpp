@@ -18,14 +18,17 @@ namespace oiler {
 /// How friction acts in a step.
 template <std::floating_point T>
 struct Braking {
-    T half_step;  ///< s; 0 if friction that turns is a force, as in stages
-    double t;     ///< s, at the start of the step
+    T half_step;                   ///< s; 0 if friction is a force, as in stages
+    double t;                      ///< s, at the start of the step
+    bool damps_apart;              ///< whether friction of damping needs a flow of its own
+    bool damping_presses = false;  ///< whether such damping changes what holds the body
 };
 
 /// The physics of one row that slides on planes. Accelerations have no part into the planes, and
-/// friction brakes. Friction that turns with the velocity has a flow of its own in the first and
-/// the last half of the step, except in Runge–Kutta methods. As a force in kicks it would have
-/// order 1; near a stop, where it turns at any rate, an implicit method would find no solution.
+/// friction brakes. Friction that turns with the velocity, or is due to damping outside the kicks,
+/// has a flow of its own in the first and the last half of the step, except in Runge–Kutta methods.
+/// As a force in kicks it would have order 1; near a stop, where it turns at any rate, an implicit
+/// method would find no solution.
 template <std::floating_point T, int Axes, class Physics>
 class SlidingPhysics {
 public:
@@ -39,25 +42,25 @@ public:
           support_(support),
           friction_(friction),
           braking_(braking),
-          by_flow_(friction.turns && braking.half_step > 0) {}
+          by_flow_(braking.half_step > 0 && (friction.turns || braking.damping_presses)) {}
 
     [[nodiscard]] Vector accelerate(const Motion& state, double t) {
-        return along(physics_.accelerate(state, t), state.v);
+        return along(physics_.accelerate(state, t), state.v, t);
     }
     [[nodiscard]] Vector kick(const Motion& state, double t) {
-        return along(physics_.kick(state, t), state.v);
+        return along(physics_.kick(state, t), state.v, t);
     }
     void drift(Motion& state, std::size_t flow, T tau) { physics_.drift(state, flow, tau); }
     void brake_before(Motion& state) { brake(state, braking_.t); }
-    void brake_after(Motion& state) {
-        brake(state, braking_.t + 2 * static_cast<double>(braking_.half_step));
-    }
+    void brake_after(Motion& state) { brake(state, end()); }
     void damp_before(Motion& state) {
         brake_before(state);
+        hold_against_damping(state, braking_.t);
         physics_.damp_before(state);
         state.v = support_.following(state.v);
     }
     void damp_after(Motion& state) {
+        hold_against_damping(state, end());
         physics_.damp_after(state);
         state.v = support_.following(state.v);
         brake_after(state);
@@ -69,30 +72,61 @@ public:
         for (std::size_t j = 0; j < Axes; ++j) {
             Vector column;
             for (std::size_t i = 0; i < Axes; ++i) column.axis[i] = rates.row[i].axis[j];
-            column = support_.without_push(column);
+            const T grip = by_flow_ ? T(0) : support_.change_of_grip(column);
+            column = support_.change_without_push(column) + friction_.against(at.v) * grip;
             for (std::size_t i = 0; i < Axes; ++i) matrix.row[i].axis[j] -= column.axis[i];
         }
         return oiler::solve(matrix, residual);
     }
     void respond(Motion& state, double t) {
         brake_before(state);
-        physics_.respond_to(state, along(physics_.field(state.x, t), state.v));
+        const double middle = t + static_cast<double>(braking_.half_step);
+        physics_.respond_to(state, along(physics_.field(state.x, t), state.v, middle));
+        if (braking_.damping_presses) state.v = support_.following(state.v);
         brake_after(state);
     }
 
 private:
-    /// The exact flow of friction over half a step.
+    [[nodiscard]] double end() const {
+        return braking_.t + 2 * static_cast<double>(braking_.half_step);
+    }
+    /// Half of what holds the body against a half-step of damping, so that its normal speed is
+    /// right in the middle of it.
+    void hold_against_damping(Motion& state, double t) {
+        if (!braking_.damping_presses) return;
+        const Vector whole = physics_.accelerate(state, t);
+        const Vector kick = physics_.field(state.x, t);
+        const Vector held = support_.without_push(whole) - support_.without_push(kick);
+        state.v += (held - (whole - kick)) * (braking_.half_step / 2);
+    }
+    /// The flow of friction over half a step: exact if the grip does not depend on the velocity,
+    /// else of order 2.
     void brake(Motion& state, double t) {
         if (!by_flow_) return;
-        const T lost = support_.grip(physics_.accelerate(state, t)) * braking_.half_step;
+        Motion middle = state;
+        if (braking_.damping_presses) brake(middle, state, braking_.half_step / 2, t);
+        brake(state, middle, braking_.half_step, t);
+    }
+    /// Brakes for `tau` s with the grip at `at`.
+    void brake(Motion& state, const Motion& at, T tau, double t) {
+        const T lost = support_.grip(physics_.accelerate(at, t) - surface_change(t)) * tau;
+        if (!friction_.turns) {
+            state.v -= friction_.direction * lost;
+            return;
+        }
         const Vector slip = state.v - friction_.surface;
         const T speed = length(slip);
         state.v = lost < speed ? slip * (1 - lost / speed) : Vector{};
         if (friction_.surface != Vector{}) state.v += friction_.surface;
     }
-    [[nodiscard]] Vector along(const Vector& a, const Vector& v) const {
-        const T grip = support_.grip(a);
-        const Vector free = support_.without_push(a);
+    /// By what the acceleration of the surface has changed in the step, m/s².
+    [[nodiscard]] Vector surface_change(double t) const {
+        return friction_.change(static_cast<T>(t - braking_.t));
+    }
+    [[nodiscard]] Vector along(const Vector& a, const Vector& v, double t) const {
+        const Vector change = surface_change(t);
+        const T grip = support_.grip(a - change);
+        const Vector free = support_.without_push(a - change) + change;
         return grip == 0 || by_flow_ ? free : free + friction_.against(v) * grip;
     }
 
@@ -162,12 +196,13 @@ public:
     }
     [[nodiscard]] Motion slide(const Motion& from, T start, T tau, const Support<T, Axes>& support,
                                const Friction<T, Axes>& friction) {
-        return step(from, start, tau,
-                    [&]<class Physics>(Physics& physics, const Braking<T>& braking, auto take) {
-                        SlidingPhysics<T, Axes, Physics> sliding(physics, support, friction,
-                                                                 braking);
-                        take(sliding);
-                    });
+        return step(
+            from, start, tau, [&]<class Physics>(Physics& physics, Braking<T> braking, auto take) {
+                braking.damping_presses =
+                    braking.damps_apart && presses(physics, from, braking.t, support);
+                SlidingPhysics<T, Axes, Physics> sliding(physics, support, friction, braking);
+                take(sliding);
+            });
     }
     [[nodiscard]] Vector accelerate(const Motion& at, T start) {
         ++evaluations_;
@@ -184,6 +219,17 @@ private:
 
     [[nodiscard]] ForcesOfRow forces(T half_step) const {
         return {linear_, parts_, ShortStepOthers<T, Axes>(others_, half_step)};
+    }
+
+    /// Whether damping that is no part of the kicks presses the body onto the obstacles or off
+    /// them.
+    template <class Physics>
+    [[nodiscard]] static bool presses(Physics& physics, const Motion& at, double t,
+                                      const Support<T, Axes>& support) {
+        const Vector whole = physics.forces().accelerate(at, t);
+        const Vector kick = physics.forces().field(at.x, t);
+        const T noise = 64 * std::numeric_limits<T>::epsilon() * (largest(whole) + largest(kick));
+        return largest(support.reactions(whole) - support.reactions(kick)) > noise;
     }
 
     /// One step of `tau` s; `with(physics, braking, take)` calls take with the physics to step.
@@ -207,14 +253,18 @@ private:
             RowPhysics<T, Axes, ForcesOfRow> physics([&] { return forces(tau / 2); }, flows, row,
                                                      damping_of_rule(rule));
             constexpr bool by_flows = !std::is_same_v<Rule, TableauPlan<T>>;
-            with(physics, Braking<T>{by_flows ? tau / 2 : T(0), t}, [&](auto& stepped) {
-                constexpr bool brakes = std::is_same_v<Rule, ImplicitPlan<T>> && requires {
-                    stepped.brake_before(state);
-                };
-                if constexpr (brakes) stepped.brake_before(state);
-                solved_ &= advance(rule, state, stepped, t);
-                if constexpr (brakes) stepped.brake_after(state);
-            });
+            // Friction that grows with the speed may leave an implicit method no solution.
+            const bool damps_apart =
+                by_flows && (!SplitsSteps<Rule> || damping_of_rule(rule) == Damping::in_drift);
+            with(physics, Braking<T>{by_flows ? tau / 2 : T(0), t, damps_apart},
+                 [&](auto& stepped) {
+                     constexpr bool brakes = std::is_same_v<Rule, ImplicitPlan<T>> && requires {
+                         stepped.brake_before(state);
+                     };
+                     if constexpr (brakes) stepped.brake_before(state);
+                     solved_ &= advance(rule, state, stepped, t);
+                     if constexpr (brakes) stepped.brake_after(state);
+                 });
             evaluations_ += physics.evaluations();
         };
         std::visit(by, plan);
