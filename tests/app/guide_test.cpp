@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plays the programs of the guide in demos/README.md. Expected motions are parabolas:
+// Plays the programs of the guide in demos/guide.md. Expected motions are parabolas:
 // velocity_verlet is exact without drag.
 #include <fmt/format.h>
 
@@ -141,9 +141,10 @@ std::string trimmed(const std::string& line) {
 
 // Each line of code in the guide is in the file that the paragraph before it names.
 TEST(Guide, ReadmeShowsTheLinesOfItsPrograms) {
-    const std::string readme = text_of(OILER_SOURCE "/demos/README.md");
+    const std::string readme = text_of(OILER_SOURCE "/demos/guide.md");
     const std::size_t begin = readme.find("## Cannon in six steps");
-    std::istringstream lines(readme.substr(begin, readme.find("## Your first game") - begin));
+    std::istringstream lines(
+        readme.substr(begin, readme.find("## What does the timestep cost") - begin));
     const std::regex link(R"(\]\(([a-z0-9_/]+\.cpp)\))");
     std::string line, file;
     bool in_code = false;
@@ -190,7 +191,7 @@ Jump jump_with(const std::string& method, int rate) {
 // The guide tells, in cm, by how much a jump with 12.6 m/s and 30 m/s² at 7 m/s is too low and too
 // short.
 TEST(Guide, ReadmeTellsWhatTheTimestepTakesFromAJump) {
-    const std::string readme = text_of(OILER_SOURCE "/demos/README.md");
+    const std::string readme = text_of(OILER_SOURCE "/demos/guide.md");
     for (const std::string method : {"semi_implicit_euler", "velocity_verlet"}) {
         std::string height, width;
         for (const int rate : {30, 60, 120, 240}) {
@@ -215,7 +216,7 @@ TEST(Guide, ReadmeTellsHowManyCoinsTheSameKeysFindAtOtherRates) {
     for (const auto& setting : report.at("settings"))
         coins.push_back(setting.at("readings").at(0).at("value"));
     EXPECT_EQ(coins, (std::vector<double>{7, 3, 7, 7}));
-    EXPECT_TRUE(holds(text_of(OILER_SOURCE "/demos/README.md"),
+    EXPECT_TRUE(holds(text_of(OILER_SOURCE "/demos/guide.md"),
                       "seven coins at 60, 120 and 240 Hz find three at 30 Hz"));
 }
 

@@ -7,7 +7,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
+#include <sstream>
 
 #include "oiler/scene/keys.hpp"
 #include "oiler/scene/make_world.hpp"
@@ -72,8 +74,9 @@ std::string row(const SceneKey& key) {
 }
 
 const std::string root = OILER_SOURCE;
-const std::vector<std::string> pages{"/README.md", "/demos/README.md", "/assets/scenes/README.md",
-                                     "/engine/README.md", "/tests/README.md"};
+const std::vector<std::string> pages{
+    "/README.md",       "/demos/README.md",         "/demos/guide.md",   "/demos/reference.md",
+    "/demos/frames.md", "/assets/scenes/README.md", "/engine/README.md", "/tests/README.md"};
 
 /// The matches of the first group of the expression in a text.
 std::vector<std::string> found(const std::string& text, const char* expression) {
@@ -145,6 +148,8 @@ TEST(Readme, LinksLeadToFiles) {
 TEST(Readme, TheFirstPageIsShort) {
     const std::string text = text_of(root + "/README.md");
     EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 200);
+    std::istringstream words(text);
+    EXPECT_LE(std::distance(std::istream_iterator<std::string>(words), {}), 1200);
 }
 
 Scene scene_named(const std::string& name) {
