@@ -90,13 +90,14 @@ TEST(Cannon, TheMenuHoldsTheWorldAndQuits) {
               100);
 }
 
-// A ball comes every 0.08 s, rounded up to 5 steps of 1/60 s, and leaves after 7 s.
+// A ball comes every 0.08 s from 0 s on, and leaves after 7 s: by the step that begins at 59/60 s,
+// 1 + ⌊0.983/0.08⌋ have come, and at 14.983 s those of 8 s to 14.96 s are there.
 TEST(Bounce, BallsComeAndLeave) {
     const Folder folder;
-    EXPECT_EQ(report_of("bounce --quiet --steps 60").at("bodies"), 60 / 5);
+    EXPECT_EQ(report_of("bounce --quiet --steps 60").at("bodies"), 13);
     EXPECT_EQ(report_of("bounce --steps 60" + with_script(folder, "30 press Space\n")).at("bodies"),
-              60 / 5 + 40);
-    EXPECT_EQ(report_of("bounce --quiet --steps 900").at("bodies"), 7 * 60 / 5);
+              13 + 40);
+    EXPECT_EQ(report_of("bounce --quiet --steps 900").at("bodies"), 88);
 }
 
 // Plays the demos stability_map and cloth.

@@ -63,7 +63,7 @@ TEST(WhatIfSettings, ArePrintedByPrograms) {
     EXPECT_TRUE(holds(run.out, "\n  semi_implicit_euler, 60 Hz, double *"));
     EXPECT_TRUE(holds(run.out, "\n  rk4, 60 Hz, double "));
     const auto json = nlohmann::json::parse(text_of(folder / "json"));
-    EXPECT_EQ(json.at("reference").at("rate"), 960);
+    EXPECT_EQ(json.at("reference").at("rate"), 7680);
     EXPECT_EQ(json.at("settings").at(1).at("rate"), 30);
     EXPECT_GT(json.at("settings").at(1).at("ns_per_frame").at("draw"), 0);
     const Outcome usual = shell(replay + "--quiet --surface osmesa --json -", 0);

@@ -176,5 +176,25 @@ TEST(Joints, BearPoints) {
                     }
 }
 
+// A ball deep in a moving half-space, which passes it, is moved out of a standing one that is added
+// around it.
+TEST(Presses, AHalfSpaceThatIsAddedAroundAPassedBallLiftsIt) {
+    for (const double angle : {0.0, 0.2, 1.5, 2.9}) {
+        World world = world_of("velocity_verlet", 60, 2, {0, -g});
+        const Entity ball = world.spawn(Body{.velocity = {2, -3}, .contact = Contact{0.3}});
+        world.add_obstacle({.shape = HalfSpaceShape{{1, 0}, 2}, .velocity = {0.5, 0}});
+        world.step(3);
+        const Vec3 n{std::cos(angle), std::sin(angle)};
+        const Vec3 x = world.position(ball);
+        const double offset = n[0] * x[0] + n[1] * x[1] + 1;
+        world.add_obstacle({.shape = HalfSpaceShape{n, offset}});
+        for (int i = 0; i < 60; ++i) {
+            ASSERT_NO_THROW(world.step()) << angle;
+            const Vec3 now = world.position(ball);
+            ASSERT_GE(n[0] * now[0] + n[1] * now[1] - offset - 0.3, -1e-9) << angle << ' ' << i;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace oiler::test

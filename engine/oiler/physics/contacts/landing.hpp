@@ -42,9 +42,11 @@ public:
         : Base(nears, radius, body), way_(way), report_(report) {}
 
     /// Lets the obstacles pass, in the next step, that have crushed the body and still overlap it.
+    /// A standing half-space never does.
     void stay_crushed(const State& state, T duration) {
         this->begin(state, duration);
         for (Near& near : nears_) {
+            if (!near.obstacle.bounded && !near.obstacle.course.moves()) continue;
             near.yields = true;
             const T noise = gap_noise(near, state);
             const T least = near.obstacle.course.moves() ? noise : -16 * noise;
