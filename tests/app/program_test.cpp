@@ -381,5 +381,20 @@ TEST(Program, QuietPrintsNothingAndDataNeedsAnOption) {
     EXPECT_TRUE(holds(loud.err, "osmesa")) << "auto prints the selected surface";
 }
 
+// 501 steps of 1/60 s at 2 frames per second; without a script, hello is 4 s long.
+TEST(Program, FilmsAScriptToItsEnd) {
+    const Folder folder;
+    put(folder / "long", "500 press Space\n");
+    put(folder / "short", "5 press Space\n");
+    const auto frames = [&](const std::string& script) {
+        shell("hello" + small + "--fps 2 --png none --script " + quoted(folder / script) +
+                  " --out " + quoted(folder / (script + "_film")),
+              0);
+        return Json::parse(text_of(folder / (script + "_film") / "manifest.json"))["frames"].size();
+    };
+    EXPECT_EQ(frames("long"), 17U);
+    EXPECT_EQ(frames("short"), 8U);
+}
+
 }  // namespace
 }  // namespace oiler::test

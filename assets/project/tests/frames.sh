@@ -4,7 +4,7 @@
 program=$1
 golden=tests/golden/game
 film() {
-    "$program" --headless --script tests/play.txt --fps 5 --frames 15 --size 640x360 --golden $golden "$@"
+    "$program" --headless --script tests/play.txt --fps 5 --size 640x360 --golden $golden "$@"
 }
 if [ -e $golden/manifest.json ]; then
     film --out frames/game --junit frames/game.xml

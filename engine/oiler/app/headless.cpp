@@ -34,12 +34,18 @@ std::int64_t frames_in(double seconds, int fps) {
     return static_cast<std::int64_t>(frames);
 }
 
-Manifest describe(const Options& options, const About& about, const Surface& surface,
-                  const Renderer& renderer) {
+/// The length of a film: to the end of a recording, or of a script, s.
+double duration_of(const GameRun& run) {
+    const Rate& rate = run.options.settings.stepping.rate;
+    return run.options.replay ? rate.time(run.options.replay->steps)
+                              : std::max(run.about.duration, rate.time(run.script_steps));
+}
+
+Manifest describe(const GameRun& run, const Surface& surface, const Renderer& renderer) {
+    const Options& options = run.options;
+    const About& about = run.about;
     const Stepping& stepping = options.settings.stepping;
     const int fps = options.fps.value_or(default_fps);
-    const double duration =
-        options.replay ? stepping.rate.time(options.replay->steps) : about.duration;
     return {.version = std::string(version()),
             .compiler = compiler(),
             .provider = std::string(surface.provider()),
@@ -54,7 +60,7 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
             .scene = std::string(about.name),
             .scene_text = std::string(about.scene_text),
             .seed = options.settings.seed,
-            .planned_frames = options.frames ? *options.frames : frames_in(duration, fps)};
+            .planned_frames = options.frames ? *options.frames : frames_in(duration_of(run), fps)};
 }
 
 /// The inspector of a headless run. It gets no mouse input and waits for the runs that play along.
@@ -197,7 +203,7 @@ Exit run_headless(GameRun& run) {
     const auto surface = open_offscreen(options.offscreen);
     Renderer renderer([&](const char* name) { return surface->procedure(name); });
     remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
-    const Manifest header = describe(options, run.about, *surface, renderer);
+    const Manifest header = describe(run, *surface, renderer);
     if (options.frame) return draw_still(run, renderer, header);
     film(run, renderer, header);
     return Interrupt::requested() ? Exit::interrupted : Exit::done;

@@ -84,6 +84,8 @@ public:
         if (tape_) tape_->finish(playback.steps(), playback.game(), after_error);
     }
 
+    [[nodiscard]] std::int64_t script_steps() const { return script_ ? script_->steps() : 0; }
+
     LiveInput live;
 
 private:
@@ -292,6 +294,7 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
                 .playback = playback,
                 .live = inputs.live,
                 .inputs = inputs.source(),
+                .script_steps = inputs.script_steps(),
                 .shelf = shelf,
                 .profile = stages};
     Exit exit = play(run, inputs, report);

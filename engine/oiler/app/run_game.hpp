@@ -22,6 +22,7 @@ struct GameRun {
     Playback& playback;
     LiveInput& live;      ///< the player in a window
     InputSource& inputs;  ///< of the steps; it may be `live`
+    std::int64_t script_steps = 0;
     Shelf* shelf = nullptr;
     Profile* profile = nullptr;
     StepTimes times{};  ///< of the steps since the last frame, in a window

@@ -42,6 +42,8 @@ public:
         : lines_(std::move(lines)), game_(game), player_(std::move(controls)) {}
 
     [[nodiscard]] Input next(std::int64_t step) override;
+    /// The steps until the last line is played.
+    [[nodiscard]] std::int64_t steps() const { return lines_.empty() ? 0 : lines_.back().step + 1; }
     /// The number of lines that come after the steps so far.
     [[nodiscard]] std::size_t unplayed() const { return lines_.size() - played_; }
 
