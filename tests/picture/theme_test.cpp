@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/picture/theme.hpp"
+
+#include "oiler/picture/palette.hpp"
+#include "support/test.hpp"
+
+namespace oiler::test {
+namespace {
+
+// WCAG's examples: black on white is 21, #777777 on white 4.48, #767676 the first grey above 4.5.
+TEST(Contrast, IsThatOfTheGuidelines) {
+    EXPECT_NEAR(contrast(palette::black, palette::paper), 21, 1e-9);
+    EXPECT_NEAR(contrast({0x77, 0x77, 0x77}, palette::paper), 4.478, 5e-4);
+    EXPECT_NEAR(contrast(palette::paper, {0x76, 0x76, 0x76}), 4.542, 5e-4);
+    EXPECT_EQ(contrast(palette::green, palette::green), 1);
+}
+
+TEST(Theme, HasInkThatCanBeReadOnEachGround) {
+    constexpr double least = 4.5;
+    constexpr std::uint8_t sheet = 232;  // the opacity of sheets over a picture
+    for (const Colour background : {palette::paper, palette::black}) {
+        const Theme& theme = theme_of(background);
+        std::vector<Colour> grounds{theme.paper,  theme.panel,   theme.field, theme.heading,
+                                    theme.button, theme.pressed, theme.knob};
+        for (const Colour below : {palette::paper, palette::black})
+            grounds.push_back(palette::mix(below, theme.paper, sheet / 255.0F));
+        for (const Colour ground : grounds) {
+            const bool is_control = ground == theme.pressed || ground == theme.knob;
+            EXPECT_GE(contrast(theme.ink, ground), least) << int{ground.g};
+            if (!is_control) {
+                EXPECT_GE(contrast(theme.faint, ground), least) << int{ground.g};
+            }
+        }
+    }
+}
+
+TEST(Theme, FollowsTheBackground) {
+    const Theme& light = theme_of(palette::paper);
+    const Theme& dark = theme_of(palette::black);
+    EXPECT_GT(light.paper.g, light.ink.g);
+    EXPECT_LT(dark.paper.g, dark.ink.g);
+    // A grey of 117 has the same contrast, 4.58, with black and white.
+    EXPECT_EQ(&theme_of({117, 117, 117}), &dark);
+    EXPECT_EQ(&theme_of({118, 118, 118}), &light);
+    EXPECT_EQ(&theme_of({214, 236, 250}), &light) << "a sky";
+    EXPECT_EQ(&theme_of({20, 24, 82}), &dark) << "a night";
+}
+
+}  // namespace
+}  // namespace oiler::test
