@@ -2,6 +2,7 @@
 #include "oiler/app/film.hpp"
 
 #include "oiler/capture/png.hpp"
+#include "oiler/overlay/overlays.hpp"
 #include "oiler/picture/palette.hpp"
 #include "render/drawing.hpp"
 #include "support/folder.hpp"
@@ -100,11 +101,7 @@ TEST_F(SheetOfTiles, HaveTheirTimes) {
         EXPECT_EQ(inked(left, 240, 320, 0, 150), 0);
     }
     Picture labelled = picture(1);
-    labelled.labels = {{.at = {canvas_width - 8, 8},
-                        .text = "1.25 s",
-                        .size = 22,
-                        .colour = palette::ink,
-                        .align = Align::right}};
+    add_status(labelled, OverlayArea({320, 180}), "1.25 s");
     const Pixels expected = studio->draw(labelled, {320, 180});
     for (int y = 0; y < 180; ++y)
         for (int x = 0; x < 320; ++x) {

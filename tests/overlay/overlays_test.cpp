@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "oiler/overlay/game_inspector.hpp"
+#include "oiler/overlay/help.hpp"
+#include "oiler/picture/palette.hpp"
+#include "oiler/picture/theme.hpp"
 #include "oiler/render/renderer.hpp"
 #include "support/test.hpp"
 
@@ -81,6 +84,36 @@ TEST(Verdict, HasMoreLinesInASmallWindow) {
     add_verdict(overlay, OverlayArea({400, 300}), of_letters(130));
     for (const Label& label : overlay.labels)
         EXPECT_NEAR(label.size * 0.625F, 11, rounding) << label.text;
+}
+
+TEST(Verdict, HasTheStateInItsSizeBesideIt) {
+    for (const Size size : {Size{1280, 720}, {400, 300}}) {
+        Picture overlay;
+        add_verdict(overlay, OverlayArea(size), of_letters(60), "paused: F3 resumes");
+        const Label& state = *std::ranges::find(overlay.labels, Align::right, &Label::align);
+        EXPECT_EQ(state.text, "paused: F3 resumes");
+        for (const Label& label : overlay.labels) EXPECT_EQ(label.size, state.size);
+        Picture alone;
+        add_status(alone, OverlayArea(size), "paused: F3 resumes");
+        EXPECT_EQ(alone.labels.at(0).size, state.size);
+    }
+}
+
+// Every label of the loop can be read on its ground: a dark one over a dark game.
+TEST(Overlays, HaveTheContrastOfTheirGame) {
+    for (const Colour background : {palette::paper, palette::black, Colour{120, 60, 20}}) {
+        Picture overlay{.background = background};
+        const OverlayArea area({1280, 720});
+        add_verdict(overlay, area, of_letters(60));
+        add_status(overlay, area, "paused");
+        add_notice(overlay, area, "it diverged", "F9 restarts");
+        add_help(overlay, area, "Title", {}, [](Button button) { return name_of(button); },
+                 {{"F1", "inspector"}});
+        const Colour paper = theme_of(background).paper;
+        EXPECT_EQ(overlay.polygons.front().colour, paper);
+        for (const Label& label : overlay.labels)
+            EXPECT_GE(contrast(label.colour, paper), 4.5) << label.text;
+    }
 }
 
 TEST(Notice, FitsASmallWindow) {

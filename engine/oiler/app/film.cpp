@@ -10,8 +10,8 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/overlay/overlays.hpp"
 #include "oiler/picture/palette.hpp"
-#include "oiler/picture/picture.hpp"
 #include "oiler/process/console.hpp"
 
 namespace oiler {
@@ -65,11 +65,7 @@ bool Sheet::wants(std::int64_t frame) const {
 }
 
 void Sheet::add(Picture picture, double time, Renderer& renderer) {
-    picture.labels.push_back({.at = {canvas_width - 8, 8},
-                              .text = fmt::format("{:.2f} s", time),
-                              .size = 22,
-                              .colour = palette::ink,
-                              .align = Align::right});
+    add_status(picture, OverlayArea(tile_), fmt::format("{:.2f} s", time));
     renderer.draw(picture, tile_);
     renderer.read(tiles_.emplace_back());
 }

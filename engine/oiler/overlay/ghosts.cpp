@@ -50,12 +50,8 @@ void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double facto
         if (ghost.distance() < least_labelled) continue;
         // Beside the ring, on the side away from the body.
         const bool is_right = truth.x >= at.x;
-        picture.labels.push_back({.at = {truth.x + (is_right ? ring + 2 : -ring - 2), truth.y},
-                                  .text = length_text(ghost.distance()),
-                                  .size = 9,
-                                  .colour = palette::purple,
-                                  .align = is_right ? Align::left : Align::right,
-                                  .layer = overlay_layer});
+        add_note(picture, {truth.x + (is_right ? ring + 6 : -ring - 6), truth.y},
+                 length_text(ghost.distance()), 9, is_right ? Align::left : Align::right);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/theme.hpp"
 
 namespace oiler {
 namespace {
@@ -19,9 +20,9 @@ constexpr float letters_of_loop_keys = 27;
 constexpr float least_letters_beside = 80;  ///< in an area with two columns
 
 /// A sheet of paper over the whole area; little shines through.
-Polygon sheet(const OverlayArea& area) {
+Polygon sheet(const OverlayArea& area, Colour paper) {
     return {.points = {area.low, {area.high.x, area.low.y}, area.high, {area.low.x, area.high.y}},
-            .colour = palette::faded(palette::paper, 248),
+            .colour = palette::faded(paper, 248),
             .space = Space::canvas,
             .layer = overlay_layer};
 }
@@ -82,10 +83,11 @@ struct List {
     float size;
 
     void add(Picture& overlay, std::span<const HelpRow> rows) const {
+        const Theme& theme = theme_of(overlay.background);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const float y = at.y - static_cast<float>(i) * line_height * size;
-            overlay.labels.push_back(label({at.x, y}, rows[i].name, size, palette::blue));
-            overlay.labels.push_back(label({text_x, y}, rows[i].text, size, palette::ink));
+            overlay.labels.push_back(label({at.x, y}, rows[i].name, size, theme.faint));
+            overlay.labels.push_back(label({text_x, y}, rows[i].text, size, theme.ink));
         }
     }
 };
@@ -111,7 +113,8 @@ std::string buttons_of(const Control& control, const NameButton& name) {
 void add_help(Picture& overlay, const OverlayArea& area, std::string_view title,
               std::span<const Control> controls, const NameButton& name,
               std::vector<HelpRow> loop_keys) {
-    overlay.polygons.push_back(sheet(area));
+    const Theme& theme = theme_of(overlay.background);
+    overlay.polygons.push_back(sheet(area, theme.paper));
     const float largest = area.legible(11);
     const float letter = letter_width * largest;
     const float room = area.high.x - area.low.x;
@@ -132,7 +135,7 @@ void add_help(Picture& overlay, const OverlayArea& area, std::string_view title,
     const std::size_t count = rows.size() + (is_wide ? 0 : loop_keys.size());
     const float size = std::min(largest, (first_row - area.low.y - 2 * largest) / line_height /
                                              static_cast<float>(std::max<std::size_t>(count, 1)));
-    overlay.labels.push_back(label({left, top}, std::string(title), 1.35F * largest, palette::ink));
+    overlay.labels.push_back(label({left, top}, std::string(title), 1.35F * largest, theme.ink));
     List{{left, first_row}, text_x, size}.add(overlay, rows);
     if (is_wide) {
         List{{loop_x, first_row}, loop_x + 8 * letter, largest}.add(overlay, loop_keys);

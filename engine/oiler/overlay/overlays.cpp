@@ -9,13 +9,16 @@
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/theme.hpp"
 
 namespace oiler {
 namespace {
 
 constexpr float least_font_pixels = 11;
+constexpr float usual_font = 7;  // units
 
 constexpr float overlay_letter_width = 0.55F;  // of the size, of the font's usual letters
+constexpr std::uint8_t opacity = 232;          // of sheets over a picture
 
 void add_sheet(Picture& picture, Point centre, Point size, Colour colour) {
     picture.polygons.push_back({.points = rectangle(centre, size),
@@ -47,18 +50,36 @@ float room_of(const Label& label, const OverlayArea& area) {
     return label.align == Align::right ? left : 2 * std::min(left, right);
 }
 
+void add_label(Picture& picture, Point at, std::string text, float size, Colour colour,
+               Align align) {
+    picture.labels.push_back({.at = at,
+                              .text = std::move(text),
+                              .size = size,
+                              .colour = colour,
+                              .align = align,
+                              .layer = overlay_layer});
+}
+
+/// A square in a colour that need not have any contrast with the paper: its edge has.
+void add_mark(Picture& picture, Point centre, float side, Colour colour) {
+    add_sheet(picture, centre, {side, side}, colour);
+    picture.polygons.back().outline = side / 12;
+    picture.polygons.back().outline_colour = theme_of(picture.background).ink;
+}
+
 /// The lines of a verdict at the top of an area. The last one ends with a hint.
 struct Band {
     static constexpr float margin = 8;
     static constexpr float usual_letters = 130;  ///< of a verdict
     static constexpr float most_lines = 4;
-    static constexpr std::string_view hint = "F1: more  F2: keys";
+    static constexpr std::string_view keys = "F1: more  F2: keys";
 
-    explicit Band(const OverlayArea& area)
-        : size(area.legible(7)),
+    explicit Band(const OverlayArea& area, std::string shown = std::string(keys))
+        : hint(std::move(shown)),
+          size(area.legible(usual_font)),
           left(area.low.x + margin + size),
           width(area.high.x - margin - left) {
-        const float wanted = usual_letters + static_cast<float>(hint.size()) + 2;
+        const float wanted = usual_letters + static_cast<float>(keys.size()) + 2;
         lines = static_cast<std::size_t>(
             std::clamp(std::ceil(wanted * letter(size) / width), 1.0F, most_lines));
     }
@@ -71,13 +92,14 @@ struct Band {
         const auto most = [&](float room) {
             return static_cast<std::size_t>(std::max(1.0F, room / letter(text_size)));
         };
-        const float beside_hint = width - letter(size) * static_cast<float>(hint.size() + 2);
+        const float beside_hint = width - letter(text_size) * static_cast<float>(hint.size() + 2);
         std::vector<std::string> found = wrapped(text, most(lines > 1 ? width : beside_hint));
         if (found.size() == lines && lines > 1 && found.back().size() > most(beside_hint))
             found.emplace_back();  // one too many: the text does not fit
         return found;
     }
 
+    std::string hint;  ///< or the state of the loop
     float size;
     float left;
     float width;
@@ -97,20 +119,22 @@ OverlayArea::OverlayArea(Size size)
 
 float OverlayArea::legible(float size) const { return std::max(size, least_font_pixels / pixels); }
 
+void add_note(Picture& overlay, Point at, std::string text, float size, Align align) {
+    const Theme& theme = theme_of(overlay.background);
+    const float width = overlay_letter_width * size * static_cast<float>(text.size());
+    const float middle = at.x + (align == Align::left ? width : -width) / 2;
+    add_sheet(overlay, {middle, at.y + 0.36F * size}, {width + 0.8F * size, 1.5F * size},
+              palette::faded(theme.paper, opacity));
+    add_label(overlay, at, std::move(text), size, theme.ink, align);
+}
+
 void add_status(Picture& overlay, const OverlayArea& area, std::string status) {
     if (status.empty()) return;
     const float room = area.high.x - area.low.x - 16;
     const auto letters = static_cast<float>(status.size());
-    const float size = std::min(area.legible(11), room / (overlay_letter_width * letters));
-    const float width = overlay_letter_width * size * letters + 16;
-    add_sheet(overlay, {area.high.x - width / 2, area.low.y + 0.75F * size}, {width, 1.5F * size},
-              palette::faded(palette::paper, 232));
-    overlay.labels.push_back({.at = {area.high.x - 8, area.low.y + 0.4F * size},
-                              .text = std::move(status),
-                              .size = size,
-                              .colour = palette::vermilion,
-                              .align = Align::right,
-                              .layer = overlay_layer});
+    const float size = std::min(area.legible(usual_font), room / (overlay_letter_width * letters));
+    add_note(overlay, {area.high.x - 8, area.low.y + 0.5F * size}, std::move(status), size,
+             Align::right);
 }
 
 Colour colour_of(Verdict::Grade grade) {
@@ -124,40 +148,34 @@ int verdict_height(const OverlayArea& area) {
     return static_cast<int>(std::lround(band.height() * area.pixels));
 }
 
-void add_verdict(Picture& overlay, const OverlayArea& area, const Verdict& verdict) {
-    const Band band(area);
+void add_verdict(Picture& overlay, const OverlayArea& area, const Verdict& verdict,
+                 const std::string& status) {
+    const Theme& theme = theme_of(overlay.background);
+    const Band band = status.empty() ? Band(area) : Band(area, status);
     const float middle = area.high.y - band.height() / 2;
     add_sheet(overlay, {canvas_width / 2, middle}, {area.high.x - area.low.x, band.height()},
-              palette::paper);
+              theme.paper);
     const float mark = 0.85F * band.size;
-    add_sheet(overlay, {area.low.x + 5 + mark / 2, area.high.y - band.line() / 2}, {mark, mark},
-              colour_of(verdict.grade));
-    const auto add_label = [&](Point at, std::string words, float size, Colour colour,
-                               Align align) {
-        overlay.labels.push_back({.at = at,
-                                  .text = std::move(words),
-                                  .size = size,
-                                  .colour = colour,
-                                  .align = align,
-                                  .layer = overlay_layer});
-    };
-    add_label({area.high.x - Band::margin,
-               area.high.y - band.height() + band.line() / 2 - 0.36F * band.size},
-              std::string(Band::hint), band.size, palette::grey, Align::right);
+    add_mark(overlay, {area.low.x + 5 + mark / 2, area.high.y - band.line() / 2}, mark,
+             colour_of(verdict.grade));
     float size = band.size;
     std::vector<std::string> lines = band.broken(verdict.text, size);
     while (lines.size() > band.lines && size > band.size / 4)
         lines = band.broken(verdict.text, size *= 0.95F);
     float y = area.high.y - band.line() / 2 - 0.36F * size;
+    add_label(overlay,
+              {area.high.x - Band::margin, y - static_cast<float>(band.lines - 1) * band.line()},
+              band.hint, size, status.empty() ? theme.faint : theme.ink, Align::right);
     for (std::string& line : lines) {
-        add_label({band.left, y}, std::move(line), size, palette::ink, Align::left);
+        add_label(overlay, {band.left, y}, std::move(line), size, theme.ink, Align::left);
         y -= band.line();
     }
 }
 
 void add_notice(Picture& overlay, const OverlayArea& area, const std::string& text,
                 const std::string& remedy) {
-    const float size = area.legible(10);
+    const Theme& theme = theme_of(overlay.background);
+    const float size = area.legible(usual_font);
     const float line_height = 1.4F * size;
     const float letters = (area.high.x - area.low.x - 16) / (overlay_letter_width * size);
     const auto most = static_cast<std::size_t>(std::clamp(letters, 10.0F, 100.0F));
@@ -167,15 +185,13 @@ void add_notice(Picture& overlay, const OverlayArea& area, const std::string& te
     const float height = line_height * static_cast<float>(lines.size());
     add_sheet(overlay, {canvas_width / 2, canvas_height / 2},
               {area.high.x - area.low.x, height + 1.6F * size},
-              palette::faded(palette::paper, 232));
+              palette::faded(theme.paper, opacity));
+    add_sheet(overlay, {area.low.x + 2, canvas_height / 2}, {4, height + 1.6F * size},
+              palette::vermilion);
     float y = (canvas_height + height) / 2 - size;
     for (std::size_t i = 0; i < lines.size(); ++i, y -= line_height)
-        overlay.labels.push_back({.at = {canvas_width / 2, y},
-                                  .text = std::move(lines[i]),
-                                  .size = size,
-                                  .colour = i < last ? palette::vermilion : palette::grey,
-                                  .align = Align::centre,
-                                  .layer = overlay_layer});
+        add_label(overlay, {canvas_width / 2, y}, std::move(lines[i]), size,
+                  i < last ? theme.ink : theme.faint, Align::centre);
 }
 
 void keep_legible(Picture& picture, const OverlayArea& area) {

@@ -26,7 +26,12 @@ struct OverlayArea {
     float pixels;  ///< of a unit
 };
 
-/// Adds the state of the loop, such as a pause, at the lower right; nothing if empty.
+// The colours of what is added follow the background of the picture that it is added to.
+
+/// Adds a line of text on a sheet; it begins at `at`, or ends there if aligned to the right.
+void add_note(Picture& overlay, Point at, std::string text, float size, Align align);
+
+/// Adds a line of text on a sheet at the lower right; nothing if empty.
 void add_status(Picture& overlay, const OverlayArea& area, std::string status);
 
 [[nodiscard]] Colour colour_of(Verdict::Grade grade);
@@ -36,8 +41,9 @@ void add_status(Picture& overlay, const OverlayArea& area, std::string status);
 [[nodiscard]] int verdict_height(const OverlayArea& area);
 
 /// Adds a band across the top with a mark in the colour of its grade, and with lines of text that
-/// fit into it.
-void add_verdict(Picture& overlay, const OverlayArea& area, const Verdict& verdict);
+/// fit into it. The state of the loop, such as a pause, stands at its end; if empty, two keys.
+void add_verdict(Picture& overlay, const OverlayArea& area, const Verdict& verdict,
+                 const std::string& status = {});
 
 /// Adds a sheet with an event and its remedy.
 void add_notice(Picture& overlay, const OverlayArea& area, const std::string& text,
