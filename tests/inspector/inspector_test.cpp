@@ -115,7 +115,7 @@ TEST(Inspector, OffersTheDampingOfASplitting) {
     EXPECT_TRUE(asked(now).empty()) << "it has no choice";
 }
 
-// Wherever the box is: after a click on it, a click on a button at the right restarts.
+// Wherever the box is: after a click on it, a click on a button at the left of the list restarts.
 TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
     const Inspected run = run_at_60_hz();
     const auto click = [&](Inspector& inspector, Point at) {
@@ -132,8 +132,8 @@ TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
         Inspector inspector(Renderer::font());
         EXPECT_FALSE(click(inspector, {1111, y}));
         bool restarts = false;
-        for (float of_button = 180; of_button < 500; of_button += step)
-            for (float x = 1050; x < 1260; x += 30)
+        for (float of_button = 280; of_button < 500; of_button += step)
+            for (float x = 945; x < 980; x += 15)
                 restarts = click(inspector, {x, of_button}) || restarts;
         boxes += restarts ? 1 : 0;
     }
@@ -221,6 +221,62 @@ TEST(Inspector, LeavesTheMouseBesideItToTheGame) {
     EXPECT_FALSE(inspector.has_mouse());
     (void)inspector.show(run_at_60_hz(), {std::nullopt, false}, frame, 0.01);
     EXPECT_FALSE(inspector.has_mouse());
+}
+
+/// Where clicks apply another setting, in pixels of a frame of that size.
+std::vector<Point> places_of_apply(const Inspected& run, Size size) {
+    std::vector<Point> places;
+    Inspector inspector(Renderer::font());
+    const auto left = static_cast<float>(Inspector::view(size).width);
+    for (float y = 240; y < 600; y += 6)
+        for (float x = left + 2; x < left + 90; x += 6) {
+            bool applies = false;
+            for (const bool down : {false, false, true, false, false})
+                applies = applies || inspector.show(run, {Point{x, y}, down}, size, 0.02).stepping;
+            if (applies) places.push_back({x, y});
+        }
+    return places;
+}
+
+TEST(Inspector, ButtonsStandStillWhileFiguresChange) {
+    Inspected run = run_at_60_hz();
+    const std::vector<Point> before = places_of_apply(run, frame);
+    ASSERT_GT(before.size(), 10U);
+    run.status = "paused: F3 resumes, F4 steps back, F5 steps";
+    run.followed = "planet: 1.234 m/s at (0.1234, -12.34) m";
+    run.rate_advice = "About 600 Hz of this method would be within a pixel so far.";
+    run.verdict = std::string(150, 'x');
+    for (Inspected::Setting& one : run.settings) {
+        one.error = "other events";
+        one.cost = "< 10 µs";
+        one.forces = "×0.99";
+    }
+    EXPECT_EQ(places_of_apply(run, frame), before);
+    // Half as many units: the same buttons can be clicked, though other columns are cut.
+    EXPECT_GT(places_of_apply(run, {420, 720}).size(), 10U);
+}
+
+// 320 x 180 shows only the upper part; the wheel brings the rest into view.
+TEST(Inspector, ScrollsWhereItDoesNotFit) {
+    constexpr Size small{320, 180};
+    Inspector inspector(Renderer::font());
+    const auto applies = [&] {
+        bool found = false;
+        for (float y = 4; y < 180; y += 6)
+            for (const bool down : {false, false, true, false, false}) {
+                const Requests one =
+                    inspector.show(run_at_60_hz(), {Point{128, y}, down}, small, 0.02);
+                found = found || (one.stepping && one.stepping->method->name == "rk4");
+            }
+        return found;
+    };
+    EXPECT_FALSE(applies());
+    bool found = false;
+    for (int turn = 0; turn < 20 && !found; ++turn) {
+        (void)inspector.show(run_at_60_hz(), {.at = Point{312, 60}, .wheel = -1}, small, 0.02);
+        found = applies();
+    }
+    EXPECT_TRUE(found);
 }
 
 TEST(Inspector, DrawsWithinTheFrame) {

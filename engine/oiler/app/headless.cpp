@@ -85,8 +85,9 @@ public:
         const Span span(profile_, "inspector");
         const double alpha = steps == at.step ? 1 : at.alpha;
         inspector_.add_overlays(picture, what_if_.ghosts(steps, alpha), alpha, 1);
-        (void)inspector_.show(&what_if_.figures(), {}, header.size, Inspector::view(header.size),
-                              {.seconds = 1.0 / header.fps, .waits = true});
+        (void)inspector_.show(
+            &what_if_.figures(), {}, header.size, Inspector::view(header.size),
+            {.seconds = 1.0 / header.fps, .background = picture.background, .waits = true});
     }
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
 

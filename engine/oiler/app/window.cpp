@@ -142,9 +142,10 @@ void GameWindow::draw(const Requests& requests, const Input& keys, std::chrono::
     if (panels_.inspector) add_game_overlays(picture, keys, now);
     window_->take_text(run_.playback.loop().takes_text());
     run_.live.shown = picture.camera;
-    const Picture above = overlay(requests);
+    const std::string state = status(requests);
+    const Picture above = overlay(picture.background, state);
     const std::chrono::nanoseconds before = time_now();
-    present(picture, above, keys, now);
+    present(picture, above, state, keys, now);
     if (!play_.clock().is_paused())
         inspector_.add_times(run_.times, play_.show_time(), time_now() - before);
     play_.clock().end_frame(time_now() - now, now - last_frame_);
@@ -162,12 +163,12 @@ void GameWindow::add_game_overlays(Picture& picture, const Input& keys,
 }
 
 /// The texts of the loop, over the picture and above it.
-Picture GameWindow::overlay(const Requests& requests) {
+Picture GameWindow::overlay(Colour background, const std::string& status) {
     const Span span(run_.profile, "overlay");
     const Layout parts = layout();
     const OverlayArea area(parts.beside_inspector());
-    Picture overlay;
-    if (parts.has_verdict && !panels_.help) add_verdict(overlay, area, play_.verdict());
+    Picture overlay{.background = background};
+    if (parts.has_verdict && !panels_.help) add_verdict(overlay, area, play_.verdict(), status);
     if (panels_.help)
         add_help(overlay, area, title_, controls_, key_names(),
                  help_on_loop_keys(!uses_escape(controls_)));
@@ -178,7 +179,8 @@ Picture GameWindow::overlay(const Requests& requests) {
     else if (!play_.complaint().empty())
         add_notice(overlay, area, play_.complaint(),
                    "What was shown goes on. F9 restarts it and closes this.");
-    add_status(overlay, area, status(requests));
+    if (!parts.has_verdict && !parts.has_inspector && !panels_.help)
+        add_status(overlay, area, status);
     return overlay;
 }
 
@@ -195,8 +197,8 @@ std::string GameWindow::status(const Requests& requests) {
     return text;
 }
 
-void GameWindow::present(Picture& picture, const Picture& overlay, const Input& keys,
-                         std::chrono::nanoseconds now) {
+void GameWindow::present(Picture& picture, const Picture& overlay, const std::string& status,
+                         const Input& keys, std::chrono::nanoseconds now) {
     const Layout parts = layout();
     if (parts.is_minimised()) return;
     {
@@ -213,7 +215,8 @@ void GameWindow::present(Picture& picture, const Picture& overlay, const Input& 
                                      .is_paused = play_.clock().is_paused(),
                                      .past = play_.past(),
                                      .no_verdict = play_.no_verdict(),
-                                     .pace = play_.clock().pace().text()});
+                                     .status = status,
+                                     .background = picture.background});
         renderer_.draw_over(inspector_.overlay());
     }
     const Span span(run_.profile, "present");

@@ -50,9 +50,9 @@ private:
     void take_from_shelf();
     void draw(const Requests& requests, const Input& keys, std::chrono::nanoseconds now);
     void add_game_overlays(Picture& picture, const Input& keys, std::chrono::nanoseconds now);
-    [[nodiscard]] Picture overlay(const Requests& requests);
-    void present(Picture& picture, const Picture& overlay, const Input& keys,
-                 std::chrono::nanoseconds now);
+    [[nodiscard]] Picture overlay(Colour background, const std::string& status);
+    void present(Picture& picture, const Picture& overlay, const std::string& status,
+                 const Input& keys, std::chrono::nanoseconds now);
     [[nodiscard]] bool is_last_frame(const Requests& requests, bool closes_menu) const;
     [[nodiscard]] std::string status(const Requests& requests);
     [[nodiscard]] NameButton key_names() const;

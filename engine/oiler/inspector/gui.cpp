@@ -2,6 +2,7 @@
 #include "oiler/inspector/gui.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace oiler {
 namespace {
@@ -15,6 +16,37 @@ Colour colour_of(ImU32 packed) {
     const auto part = [&](int shift) { return static_cast<std::uint8_t>(packed >> shift & 0xFFU); };
     return {part(IM_COL32_R_SHIFT), part(IM_COL32_G_SHIFT), part(IM_COL32_B_SHIFT),
             part(IM_COL32_A_SHIFT)};
+}
+
+void set_colours(const Theme& theme) {
+    const std::pair<ImGuiCol, Colour> colours[] = {
+        {ImGuiCol_Text, theme.ink},
+        {ImGuiCol_TextDisabled, theme.faint},
+        {ImGuiCol_WindowBg, theme.panel},
+        {ImGuiCol_ChildBg, theme.panel},
+        {ImGuiCol_PopupBg, theme.paper},
+        {ImGuiCol_Border, theme.faint},
+        {ImGuiCol_Separator, theme.faint},
+        {ImGuiCol_FrameBg, theme.field},
+        {ImGuiCol_FrameBgHovered, theme.heading},
+        {ImGuiCol_FrameBgActive, theme.heading},
+        {ImGuiCol_ScrollbarBg, theme.panel},
+        {ImGuiCol_ScrollbarGrab, theme.button},
+        {ImGuiCol_ScrollbarGrabHovered, theme.pressed},
+        {ImGuiCol_ScrollbarGrabActive, theme.pressed},
+        {ImGuiCol_CheckMark, theme.ink},
+        {ImGuiCol_SliderGrab, theme.knob},
+        {ImGuiCol_SliderGrabActive, theme.knob},
+        {ImGuiCol_Button, theme.button},
+        {ImGuiCol_ButtonHovered, theme.pressed},
+        {ImGuiCol_ButtonActive, theme.pressed},
+        {ImGuiCol_Header, theme.button},
+        {ImGuiCol_HeaderHovered, theme.pressed},
+        {ImGuiCol_HeaderActive, theme.pressed},
+        {ImGuiCol_TableHeaderBg, theme.heading},
+    };
+    for (const auto& [index, colour] : colours)
+        ImGui::GetStyle().Colors[index] = gui_colour(colour);
 }
 
 void append(const ImDrawList& list, Overlay& overlay) {
@@ -36,6 +68,11 @@ void append(const ImDrawList& list, Overlay& overlay) {
 }
 
 }  // namespace
+
+ImVec4 gui_colour(Colour colour) {
+    return {static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255,
+            static_cast<float>(colour.b) / 255, 1};
+}
 
 Gui::Gui(std::span<const char> font) : context_(ImGui::CreateContext()), font_(font) {
     ImGui::SetCurrentContext(context_);
@@ -69,9 +106,10 @@ void Gui::set_scale(float unit) {
     overlay_.bitmap = make_bitmap(size, {pixels, pixels + bytes});
 
     ImGuiStyle style;
-    ImGui::StyleColorsLight(&style);
+    style.DisabledAlpha = 0.7F;
     style.AntiAliasedLinesUseTex = false;  // texels are not blended
     style.WindowRounding = 0;
+    style.FrameBorderSize = 1;
     style.FramePadding = {3, 2};  // many rows
     style.ItemSpacing.y = 3;
     style.CellPadding = {3, 1};
@@ -80,10 +118,11 @@ void Gui::set_scale(float unit) {
     ImGui::GetStyle() = style;
 }
 
-void Gui::begin(const Inspector::Mouse& mouse, Size frame, double seconds) {
+void Gui::begin(const Inspector::Mouse& mouse, Size frame, double seconds, const Theme& theme) {
     ImGui::SetCurrentContext(context_);
     const float unit = unit_of(frame);
     if (unit != unit_) set_scale(unit);
+    set_colours(theme);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(frame.width), static_cast<float>(frame.height)};
     io.DeltaTime = static_cast<float>(std::max(seconds, 1e-4));

@@ -10,6 +10,8 @@
 
 namespace oiler {
 
+[[nodiscard]] ImVec4 gui_colour(Colour colour);
+
 /// Dear ImGui without a window: it takes mouse input and returns triangles.
 class Gui {
 public:
@@ -23,7 +25,7 @@ public:
     [[nodiscard]] static float unit_of(Size frame);
 
     /// Widgets may be called until `end`.
-    void begin(const Inspector::Mouse& mouse, Size frame, double seconds);
+    void begin(const Inspector::Mouse& mouse, Size frame, double seconds, const Theme& theme);
     void end();
     [[nodiscard]] const Overlay& overlay() const { return overlay_; }
     [[nodiscard]] bool has_mouse() const;

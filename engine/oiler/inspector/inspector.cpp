@@ -17,8 +17,8 @@ namespace {
 
 constexpr float panel_width = 350;  // units
 constexpr int lines_of_verdict = 4;
+constexpr int lines_of_state = 2;
 constexpr double frame_at_60_hz = 1e9 / 60;  // ns
-constexpr float smallest_error = 1e-6F;      // m
 
 /// The place of the closest rate on the slider.
 int place_of(std::int64_t rate) {
@@ -27,28 +27,47 @@ int place_of(std::int64_t rate) {
                             offered_rates.begin());
 }
 
-ImVec4 gui_colour(Colour colour) {
-    return {static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255,
-            static_cast<float>(colour.b) / 255, 1};
-}
-
 void text(const std::string& words) { ImGui::TextUnformatted(words.c_str()); }
-void coloured(Colour colour, const std::string& words) {
-    ImGui::TextColored(gui_colour(colour), "%s", words.c_str());
-}
 void wrapped(const std::string& words) {
     ImGui::PushTextWrapPos(0);
     text(words);
     ImGui::PopTextWrapPos();
 }
+/// Text after a mark in a colour, which has an edge of ink, because it may be pale.
+void marked(Colour colour, const std::string& words) {
+    const float side = 0.6F * ImGui::GetFontSize();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 low{corner.x, corner.y + 0.25F * ImGui::GetFontSize()};
+    const ImVec2 high{low.x + side, low.y + side};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(low, high, ImGui::ColorConvertFloat4ToU32(gui_colour(colour)));
+    list.AddRect(low, high, ImGui::GetColorU32(ImGuiCol_Text));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.5F * side);
+    wrapped(words);
+}
+float width_of_marked(const std::string& words) {
+    return ImGui::CalcTextSize(words.c_str()).x + 0.9F * ImGui::GetFontSize();
+}
 
-/// A button that is grey unless it has an effect.
-bool button(const char* name, bool has_effect = true) {
+float width_of_button(const char* widest_name) {
+    return ImGui::CalcTextSize(widest_name).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+/// A button that is grey unless it has an effect, as wide as the widest of its names.
+bool button(const char* name, bool has_effect = true, const char* widest_name = nullptr) {
     ImGui::BeginDisabled(!has_effect);
-    const bool pressed = ImGui::Button(name);
+    const bool pressed =
+        ImGui::Button(name, {width_of_button(widest_name ? widest_name : name), 0});
     ImGui::EndDisabled();
     return pressed;
 }
+
+/// The next item, of that width, stands beside the last one, from `x` on, if there is room.
+void beside(float width, float x = 0) {
+    ImGui::SameLine(x);
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+}
+void beside(const char* button) { beside(width_of_button(button)); }
 
 }  // namespace
 
@@ -66,15 +85,64 @@ std::string energy_text(double joules) {
     return fmt::format("{:.4g} J", joules);
 }
 
+namespace {
+
+/// A plot of errors from 1 µm to 1 km over time, with its units at both sides.
+class ErrorPlot {
+public:
+    enum class Side { left, right };
+
+    /// Takes its room in the panel.
+    ErrorPlot() {
+        const float margin = ImGui::CalcTextSize("1 mm ").x;
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const float width = ImGui::GetContentRegionAvail().x;
+        const float letter = ImGui::GetFontSize();
+        low_ = {corner.x + margin, corner.y + (lines - 0.5F) * letter};
+        high_ = {corner.x + width - margin, corner.y + 0.5F * letter};
+        ImGui::Dummy({width, lines * letter});
+    }
+
+    void line_at(double error, const char* unit, Side side) const {
+        const float y = height_of(error);
+        list_.AddLine({low_.x, y}, {high_.x, y}, ImGui::GetColorU32(ImGuiCol_TextDisabled, 0.6F));
+        const ImVec2 size = ImGui::CalcTextSize(unit);
+        const float gap = size.y / 4;
+        const float x = side == Side::left ? low_.x - gap - size.x : high_.x + gap;
+        list_.AddText({x, y - size.y / 2}, ImGui::GetColorU32(ImGuiCol_Text), unit);
+    }
+    void curve(const std::vector<float>& errors) const {
+        std::vector<ImVec2> points;
+        const float step =
+            (high_.x - low_.x) / std::max(1.0F, static_cast<float>(errors.size()) - 1);
+        for (const float error : errors)
+            points.push_back({low_.x + step * static_cast<float>(points.size()), height_of(error)});
+        list_.AddPolyline(points.data(), static_cast<int>(points.size()),
+                          ImGui::GetColorU32(ImGuiCol_Text), 0, ImGui::GetFontSize() / 10);
+    }
+
+private:
+    static constexpr float lines = 6;  // of text
+
+    [[nodiscard]] float height_of(double error) const {
+        const double share = (std::log10(std::clamp(error, 1e-6, 1e3)) + 6) / 9;
+        return low_.y + static_cast<float>(share) * (high_.y - low_.y);
+    }
+
+    ImDrawList& list_ = *ImGui::GetWindowDrawList();
+    ImVec2 low_;
+    ImVec2 high_;
+};
+
+}  // namespace
+
 struct Inspector::Impl {
     explicit Impl(std::span<const char> font) : gui(font) {}
 
     static void show_verdict(const Inspected& run) {
         // The height is fixed, so that nothing moves under the mouse.
         ImGui::BeginChild("verdict", {0, lines_of_verdict * ImGui::GetTextLineHeightWithSpacing()});
-        ImGui::PushStyleColor(ImGuiCol_Text, gui_colour(run.grade));
-        wrapped(run.verdict);
-        ImGui::PopStyleColor();
+        marked(run.grade, run.verdict);
         ImGui::EndChild();
         ImGui::Separator();
     }
@@ -112,8 +180,10 @@ struct Inspector::Impl {
         ImGui::EndDisabled();
         chosen.precision = is_double == 1 ? Precision::double_ : Precision::single;
         if (run.fixed.empty()) {
-            ImGui::SameLine(ImGui::GetContentRegionAvail().x / 2);
-            ImGui::Checkbox("changes restart the run", &changes_from_start);
+            constexpr const char* restart = "changes restart the run";
+            beside(ImGui::GetFrameHeightWithSpacing() + ImGui::CalcTextSize(restart).x,
+                   ImGui::GetContentRegionAvail().x / 2);
+            ImGui::Checkbox(restart, &changes_from_start);
         }
         ImGui::BeginDisabled(!run.fixed.empty());
         show_damping(chosen);
@@ -151,25 +221,31 @@ struct Inspector::Impl {
     }
 
     void show_controls(const Inspected& run, Requests& requests) {
-        requests.pauses = button(run.is_paused ? "Resume" : "Pause");
-        ImGui::SameLine();
+        requests.pauses = button(run.is_paused ? "Play" : "Pause", true, "Pause");
+        beside("Back");
         requests.goes_back = button("Back", run.is_paused && run.past);
-        ImGui::SameLine();
+        beside("Step");
         requests.steps = button("Step", run.is_paused);
-        ImGui::SameLine();
+        beside("Restart");
         requests.restarts = button("Restart");
-        ImGui::SameLine();
+        beside("Slower");
         if (button("Slower")) ++requests.slower;
-        ImGui::SameLine();
+        beside("Faster");
         if (button("Faster")) ++requests.faster;
         const std::string bodies = run.bodies > 0 ? fmt::format(", bodies: {}", run.bodies) : "";
-        text(fmt::format("{:.2f} s{}{}{}", run.time, bodies, run.pace.empty() ? "" : ", ",
-                         run.pace));
+        text(fmt::format("{:.2f} s{}", run.time, bodies));
         if (run.past) show_time_line(*run.past, run.stepping.rate, requests);
+    }
+
+    /// The state of the loop and the body that the view follows.
+    static void show_state(const Inspected& run) {
+        ImGui::BeginChild("state", {0, lines_of_state * ImGui::GetTextLineHeightWithSpacing()});
+        if (!run.status.empty()) wrapped(run.status);
         if (!run.followed.empty())
             wrapped(run.followed);
         else if (run.bodies > 0)
-            text("A double click on a body follows it.");
+            wrapped("A double click on a body follows it.");
+        ImGui::EndChild();
     }
 
     void show_time_line(const Inspected::Past& past, const Rate& rate, Requests& requests) {
@@ -190,56 +266,54 @@ struct Inspector::Impl {
         ImGui::Separator();
         text("Off the true motion as drawn, " + (run.is_of_round ? "in a round" : since(run)));
         if (!ImGui::BeginTable("settings", 5, ImGuiTableFlags_SizingFixedFit)) return;
-        // The table itself would widen a column one frame after its text.
-        const auto column = [&](const char* name, auto text_of) {
-            float width = ImGui::CalcTextSize(name).x;
-            for (const Inspected::Setting& one : run.settings)
-                width = std::max(width, ImGui::CalcTextSize(text_of(one).c_str()).x);
-            ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, width);
+        // The buttons come first, so that nothing pushes them, and the widths are those of the
+        // longest figures, because digits come and go.
+        const auto column = [](const char* name, float width) {
+            ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed,
+                                    std::max(width, ImGui::CalcTextSize(name).x));
         };
-        using Setting = Inspected::Setting;
-        column("", [&](const Setting& one) { return difference(one.stepping, run.stepping); });
-        column("at most", [](const Setting& one) { return one.error; });
-        column("a frame", [](const Setting& one) { return one.cost; });
-        column("forces", [](const Setting& one) { return one.forces; });
-        ImGui::TableSetupColumn("");
+        float widest = 0;
+        for (const Inspected::Setting& one : run.settings)
+            widest = std::max(
+                widest, ImGui::CalcTextSize(difference(one.stepping, run.stepping).c_str()).x);
+        column("", width_of_button("Apply"));
+        column("", widest);
+        column("at most", width_of_marked("other events"));
+        column("a frame", ImGui::CalcTextSize("99.9 µs").x);
+        column("forces", ImGui::CalcTextSize("×0.99").x);
         ImGui::TableHeadersRow();
         for (std::size_t i = 0; i < run.settings.size(); ++i) {
             const Inspected::Setting& one = run.settings[i];
             ImGui::TableNextColumn();
+            ImGui::PushID(static_cast<int>(i));
+            if (i > 0 && button("Apply", run.fixed.empty())) requests.stepping = one.stepping;
+            ImGui::PopID();
+            ImGui::TableNextColumn();
             text(difference(one.stepping, run.stepping));
             ImGui::TableNextColumn();
-            coloured(one.grade, one.error);
+            marked(one.grade, one.error);
             ImGui::TableNextColumn();
             text(one.cost);
             ImGui::TableNextColumn();
             text(one.forces);
-            ImGui::TableNextColumn();
-            ImGui::PushID(static_cast<int>(i));
-            if (i > 0 && button("Apply", run.fixed.empty())) requests.stepping = one.stepping;
-            ImGui::PopID();
         }
         ImGui::EndTable();
         if (!run.rate_advice.empty()) wrapped(run.rate_advice);
         show_errors(run);
     }
 
-    /// The error over time, on a logarithmic scale.
+    /// The error in the last steps, on a logarithmic scale, with lines at 1 mm and at a pixel.
     static void show_errors(const Inspected& run) {
         if (run.errors.empty()) return;
-        std::vector<float> logarithms;
-        for (const float error : run.errors)
-            logarithms.push_back(std::log10(std::max(error, smallest_error)));
-        text(fmt::format("this run: up to {:.2g} m in the last step", run.errors.back()));
-        // Disabled, because the mouse over the curve would show logarithms.
-        ImGui::PushStyleVar(ImGuiStyleVar_DisabledAlpha, 1);
-        ImGui::BeginDisabled();
-        ImGui::PlotLines("##errors", logarithms.data(), static_cast<int>(logarithms.size()), 0,
-                         nullptr, -6, 3,
-                         {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetFontSize()});
-        ImGui::EndDisabled();
-        ImGui::PopStyleVar();
-        coloured(palette::grey, "from 1 µm to 1 km, logarithmic");
+        wrapped(fmt::format("This run in the last {:.2g} s, now {}:",
+                            run.stepping.rate.time(static_cast<std::int64_t>(run.errors.size())),
+                            run.last_error));
+        const ErrorPlot plot;
+        plot.line_at(1e-6, "1 µm", ErrorPlot::Side::left);
+        plot.line_at(1e-3, "1 mm", ErrorPlot::Side::left);
+        plot.line_at(1e3, "1 km", ErrorPlot::Side::left);
+        if (run.pixel > 0) plot.line_at(run.pixel, "1 px", ErrorPlot::Side::right);
+        plot.curve(run.errors);
     }
 
     /// The overlays over the picture, with their scales.
@@ -256,12 +330,11 @@ struct Inspector::Impl {
         ImGui::Checkbox("acceleration", &shown.accelerations);
         if (shown.springs) show_strains(scales);
         const auto arrow = [](double scale, const char* unit, Colour colour) {
-            coloured(colour, fmt::format("1 m = {:g} {}", scale, unit));
+            marked(colour, fmt::format("1 m = {:g} {}", scale, unit));
         };
         if (shown.velocities) arrow(scales.velocity, "m/s", Inspected::Scales::colour_of_velocity);
         if (shown.velocities && shown.accelerations) ImGui::SameLine(second);
-        if (shown.accelerations)
-            arrow(scales.acceleration, "m/s²", Inspected::Scales::colour_of_acceleration);
+        if (shown.accelerations) arrow(scales.acceleration, "m/s²", run.theme.ink);
         const bool has_bodies = shown.trails || shown.velocities || shown.accelerations;
         if (has_bodies && scales.bodies > 0)
             text(fmt::format("trails and arrows: {} bodies", scales.bodies));
@@ -269,16 +342,24 @@ struct Inspector::Impl {
     static void show_strains(const Inspected::Scales& scales) {
         const auto row = [](const std::string& full, bool may_be_compressed) {
             if (may_be_compressed) {
-                coloured(palette::blue, "−" + full);
+                marked(palette::blue, "−" + full);
                 ImGui::SameLine();
             }
-            coloured(palette::grey, "relaxed");
+            marked(palette::grey, "relaxed");
             ImGui::SameLine();
-            coloured(palette::vermilion, "+" + full);
+            marked(palette::vermilion, "+" + full);
         };
         if (scales.springs == 0) text("there are no springs");
         if (scales.strain > 0) row(fmt::format("{:g} %", 100 * scales.strain), true);
         if (!scales.stretch.empty()) row(scales.stretch + ", without a rest length", false);
+    }
+
+    /// A bar, and its figure beside it, where it can be read whatever the bar's colour.
+    static void show_bar(double share, const std::string& figure) {
+        const float width = 0.3F * ImGui::GetContentRegionAvail().x;
+        ImGui::ProgressBar(static_cast<float>(std::min(share, 1.0)), {width, 0}, "");
+        ImGui::SameLine();
+        wrapped(figure);
     }
 
     /// The distance of the stiffest spring or damper from its limit.
@@ -298,7 +379,7 @@ struct Inspector::Impl {
                                                        : fmt::format("{}·dt {:.3g}, limit {:.3g}",
                                                                 gauge.is_damper ? "c" : "ω",
                                                                      gauge.measure, gauge.limit);
-        ImGui::ProgressBar(static_cast<float>(std::min(share, 1.0)), {-1, 0}, of.c_str());
+        show_bar(share, of);
         ImGui::PopStyleColor();
         if (share >= 1 && gauge.limit > 0)
             wrapped(
@@ -322,7 +403,7 @@ struct Inspector::Impl {
         row("draw", run.costs.draw);
         const std::string share =
             fmt::format("{:.0f} % of a frame at 60 Hz", 100 * total / frame_at_60_hz);
-        ImGui::ProgressBar(static_cast<float>(total / frame_at_60_hz), {-1, 0}, share.c_str());
+        show_bar(total / frame_at_60_hz, share);
         if (run.dropped > 0)
             text(fmt::format("dropped because of late frames: {:.2f} s", run.dropped));
     }
@@ -374,7 +455,7 @@ Inspector::~Inspector() = default;
 
 Requests Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, double seconds) {
     Requests requests;
-    impl_->gui.begin(mouse, frame, seconds);
+    impl_->gui.begin(mouse, frame, seconds, run.theme);
     const auto panel = static_cast<float>(frame.width - view(frame).width);
     ImGui::SetNextWindowPos({static_cast<float>(frame.width) - panel, 0});
     ImGui::SetNextWindowSize({panel, static_cast<float>(frame.height)});
@@ -383,9 +464,10 @@ Requests Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, d
     Impl::show_verdict(run);
     impl_->show_setting(run, mouse.escapes, requests);
     impl_->show_controls(run, requests);
+    Impl::show_state(run);
+    impl_->show_overlays(run);
     Impl::show_settings(run, requests);
     Impl::show_gauge(run);
-    impl_->show_overlays(run);
     Impl::show_costs(run);
     Impl::show_energy(run);
     ImGui::End();

@@ -13,6 +13,7 @@
 #include "oiler/core/size.hpp"
 #include "oiler/physics/stepping.hpp"
 #include "oiler/picture/palette.hpp"
+#include "oiler/picture/theme.hpp"
 #include "oiler/render/renderer.hpp"
 
 namespace oiler {
@@ -54,7 +55,6 @@ struct Inspected {
     /// The scales of the overlays.
     struct Scales {
         static constexpr Colour colour_of_velocity = palette::green;
-        static constexpr Colour colour_of_acceleration = palette::ink;
 
         double velocity = 0;      ///< m/s that are drawn as 1 m
         double acceleration = 0;  ///< m/s² that are drawn as 1 m
@@ -79,7 +79,9 @@ struct Inspected {
     std::vector<Setting> settings{};           ///< the run's own first; empty: nothing is known
     bool is_of_round = false;                  ///< `settings` are of the whole last round
     std::string rate_advice{};                 ///< the rate that would be within a pixel
-    std::vector<float> errors{};               ///< of the run over time, m
+    std::vector<float> errors{};               ///< of the run in its last steps, m
+    std::string last_error{};                  ///< of these, such as "7.5 cm"
+    double pixel = 0;                          ///< its height, m; 0: unknown
     std::optional<Gauge> stiffest{};
     FrameCosts costs{};                    ///< all 0: not measured
     double energy = 0;                     ///< J
@@ -93,9 +95,10 @@ struct Inspected {
     int most_threads = 1;  ///< that can be chosen; 1: more change nothing
     bool is_paused = false;
     std::optional<Past> past{};
-    std::string pace{};
+    std::string status{};    ///< of the loop, such as a pause
     std::string followed{};  ///< figures of the body that the view follows; empty: it follows none
     Scales scales{};
+    Theme theme = theme_of(palette::paper);
 };
 
 /// The user's requests to the loop in a frame, through the inspector or with keys.

@@ -76,6 +76,7 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
 /// The errors and costs of this setting and of others.
 void add_measured(Inspected& run, const LiveFigures& figures) {
     run.errors = figures.errors;
+    if (!run.errors.empty()) run.last_error = length_text(run.errors.back());
     if (!figures.measured || !has_figures(*figures.measured)) return;
     const WhatIf& measured = *figures.measured;
     // The errors are newer than the result.
@@ -85,6 +86,7 @@ void add_measured(Inspected& run, const LiveFigures& figures) {
     for (const WhatIfRun& other : std::span(measured.runs).subspan(1))
         run.settings.push_back(inspected(other, measured));
     run.is_of_round = figures.repeats;
+    run.pixel = measured.pixel;
     run.rate_advice = rate_advice_text(measured);
 }
 
@@ -189,8 +191,9 @@ Requests GameInspector::show(const LiveFigures* figures, const Input& mouse, Siz
                   .most_threads = most_threads(world),
                   .is_paused = frame.is_paused,
                   .past = frame.past,
-                  .pace = frame.pace,
-                  .scales = motion_.scales()};
+                  .status = frame.status,
+                  .scales = motion_.scales(),
+                  .theme = theme_of(frame.background)};
     const bool is_measured = figures && frame.no_verdict.empty();
     if (figures && figures->begin) {
         run.begin = figures->begin->time;

@@ -27,8 +27,9 @@ public:
         std::optional<Inspected::Past> past{};
         /// Why there is no verdict on the shown step; empty: there is one.
         std::string no_verdict{};
-        std::string pace{};
-        bool waits = false;  ///< until all values are known
+        std::string status{};                ///< of the loop
+        Colour background = palette::paper;  ///< of the game
+        bool waits = false;                  ///< until all values are known
     };
 
     /// `fixed` tells why the setting cannot be changed; empty: it can.

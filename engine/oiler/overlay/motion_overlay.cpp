@@ -10,6 +10,7 @@
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/theme.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/whatif/verdict.hpp"
 
@@ -266,7 +267,7 @@ void MotionOverlay::add(Picture& picture, const World& world, const Shown& shown
     scales_.acceleration = round_up(largest_.acceleration / length);
     if (shown.accelerations)
         add_arrows(picture, drawn, motions, &BodyMotion::acceleration, scales_.acceleration,
-                   Inspected::Scales::colour_of_acceleration);
+                   theme_of(picture.background).ink);
     if (shown.velocities)
         add_arrows(picture, drawn, motions, &BodyMotion::velocity, scales_.velocity,
                    Inspected::Scales::colour_of_velocity);
