@@ -11,7 +11,7 @@ namespace oiler::test {
 namespace {
 
 constexpr Size frame{1280, 720};
-constexpr float panel_left = 930;
+constexpr float panel_left = 890;
 
 Inspected run_at_60_hz() {
     static const std::vector<const Method*> all{&find_method("semi_implicit_euler"),
@@ -38,7 +38,7 @@ std::vector<Requests> clicks_everywhere(const Inspected& run) {
             const Point at{x, y};
             for (const bool down : {false, false, true, false, false}) {
                 const Requests requests = inspector.show(run, {at, down}, frame, 1.0 / 60);
-                EXPECT_TRUE(inspector.has_mouse() || x < 940) << x << ' ' << y;
+                EXPECT_TRUE(inspector.has_mouse() || x < panel_left + 10) << x << ' ' << y;
                 all.push_back(requests);
             }
             // A menu that the click opened closes by a click beside it.
@@ -130,10 +130,10 @@ TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
     int boxes = 0;
     for (float y = 124; y < 148; y += step) {
         Inspector inspector(Renderer::font());
-        EXPECT_FALSE(click(inspector, {1111, y}));
+        EXPECT_FALSE(click(inspector, {1081, y}));
         bool restarts = false;
         for (float of_button = 280; of_button < 500; of_button += step)
-            for (float x = 945; x < 980; x += 15)
+            for (float x = 903; x < 936; x += 15)
                 restarts = click(inspector, {x, of_button}) || restarts;
         boxes += restarts ? 1 : 0;
     }
@@ -202,9 +202,9 @@ TEST(Inspector, GoesToStepsOfThePast) {
         };
         (void)drag(1270, false);
         (void)drag(1270, false);
-        for (float x = 1270; x > 930; x -= 8)
+        for (float x = 1270; x > panel_left; x -= 8)
             if (const auto step = drag(x, true)) seeked.insert(*step);
-        EXPECT_FALSE(drag(930, false));
+        EXPECT_FALSE(drag(panel_left, false));
     }
     EXPECT_GT(seeked.size(), 30U);
     EXPECT_EQ(*seeked.begin(), 100);
@@ -246,6 +246,7 @@ TEST(Inspector, ButtonsStandStillWhileFiguresChange) {
     run.followed = "planet: 1.234 m/s at (0.1234, -12.34) m";
     run.rate_advice = "About 600 Hz of this method would be within a pixel so far.";
     run.verdict = std::string(150, 'x');
+    run.bodies = 0;
     for (Inspected::Setting& one : run.settings) {
         one.error = "other events";
         one.cost = "< 10 µs";

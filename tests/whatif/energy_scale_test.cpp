@@ -27,7 +27,9 @@ TEST(EnergyScale, IsTheLargerOfKineticEnergyAndPotentialRangeSoFar) {
         return scale.joules();
     };
     EXPECT_EQ(with(2, 5), 2);
+    EXPECT_TRUE(scale.is_kinetic());
     EXPECT_EQ(with(1, 8), 3);
+    EXPECT_FALSE(scale.is_kinetic());
     EXPECT_EQ(with(7, 6), 7);
     EXPECT_EQ(with(0, 6), 7);
 }

@@ -15,7 +15,7 @@
 namespace oiler {
 namespace {
 
-constexpr float panel_width = 350;  // units
+constexpr float panel_width = 390;  // units
 constexpr int lines_of_verdict = 4;
 constexpr int lines_of_state = 2;
 constexpr double frame_at_60_hz = 1e9 / 60;  // ns
@@ -122,7 +122,7 @@ public:
     }
 
 private:
-    static constexpr float lines = 6;  // of text
+    static constexpr float lines = 5;  // of text
 
     [[nodiscard]] float height_of(double error) const {
         const double share = (std::log10(std::clamp(error, 1e-6, 1e3)) + 6) / 9;
@@ -319,7 +319,8 @@ struct Inspector::Impl {
     /// The overlays over the picture, with their scales.
     void show_overlays(const Inspected& run) {
         const Inspected::Scales& scales = run.scales;
-        if (run.bodies == 0) return;
+        // Greyed, not gone, when the last body goes, so that the list below stands still.
+        ImGui::BeginDisabled(run.bodies == 0);
         const float second = ImGui::GetContentRegionAvail().x / 2;
         ImGui::Separator();
         ImGui::Checkbox("trails", &shown.trails);
@@ -328,6 +329,7 @@ struct Inspector::Impl {
         ImGui::Checkbox("velocity", &shown.velocities);
         ImGui::SameLine(second);
         ImGui::Checkbox("acceleration", &shown.accelerations);
+        ImGui::EndDisabled();
         if (shown.springs) show_strains(scales);
         const auto arrow = [](double scale, const char* unit, Colour colour) {
             marked(colour, fmt::format("1 m = {:g} {}", scale, unit));
@@ -391,7 +393,6 @@ struct Inspector::Impl {
         const double total = run.costs.total();
         if (total == 0) return;
         ImGui::Separator();
-        text("A frame");
         const auto row = [&](const char* name, double cost) {
             text(fmt::format("{}  {}", name, time_text(cost)));
         };
@@ -412,16 +413,17 @@ struct Inspector::Impl {
         if (run.bodies == 0) return;
         ImGui::Separator();
         if (!std::isfinite(run.energy)) return text("energy: infinite");
-        text("energy " + energy_text(run.energy));
-        if (!run.first_energy) return;
+        if (!run.first_energy) return text("energy " + energy_text(run.energy));
         const double change = run.energy - *run.first_energy;
-        std::string words = since(run) + (change < 0 ? " " : " +") + energy_text(change);
-        if (run.energy_scale > 0) {
-            const double percent = 100 * change / run.energy_scale;
-            words += std::abs(percent) < 99.5 ? fmt::format(", {:+.2g} %", percent)
-                                              : fmt::format(", {:+.0f} %", percent);
-        }
-        text(words);
+        wrapped(fmt::format("energy {}, {}{} {}", energy_text(run.energy), change < 0 ? "" : "+",
+                            energy_text(change), since(run)));
+        if (!(run.energy_scale > 0)) return;
+        const double percent = 100 * change / run.energy_scale;
+        const std::string share = std::abs(percent) < 99.5 ? fmt::format("{:+.2g} %", percent)
+                                                           : fmt::format("{:+.0f} %", percent);
+        wrapped(fmt::format(
+            "{} of {}, the {}", share, energy_text(run.energy_scale),
+            run.is_scale_kinetic ? "largest kinetic energy" : "range of the potential energy"));
     }
 
     /// "this", "120 Hz", "rk4", "float".

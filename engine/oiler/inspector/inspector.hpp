@@ -88,6 +88,7 @@ struct Inspected {
     double begin = 0;                      ///< s, the start of comparing errors and energies
     std::optional<double> first_energy{};  ///< J, at `begin`; empty: unknown
     double energy_scale = 0;               ///< J, the unit of relative changes; 0: none
+    bool is_scale_kinetic = false;         ///< the largest kinetic energy; else a potential range
     double time = 0;                       ///< s
     double dropped = 0;                    ///< s
     std::size_t bodies = 0;

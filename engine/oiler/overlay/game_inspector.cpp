@@ -177,13 +177,13 @@ Requests GameInspector::show(const LiveFigures* figures, const Input& mouse, Siz
     const World& world = game_.world();
     if (methods_.empty()) methods_ = applicable_methods(world);
     find_stiffest(frame.waits);
-    const double energy = world.energy().total();
+    const Energy energy = world.energy();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,
                   .fixed = fixed_,
                   .stiffest = stiffest_,
                   .costs = costs_,
-                  .energy = energy,
+                  .energy = energy.total(),
                   .time = world.time(),
                   .dropped = frame.dropped,
                   .bodies = world.body_count(),
@@ -198,7 +198,11 @@ Requests GameInspector::show(const LiveFigures* figures, const Input& mouse, Siz
     if (figures && figures->begin) {
         run.begin = figures->begin->time;
         run.first_energy = figures->begin->energy;
-        run.energy_scale = figures->energy_scale.joules();
+        // What plays along may lag behind the shown energy, which belongs to the scale.
+        EnergyScale scale = figures->energy_scale;
+        scale.add(energy);
+        run.energy_scale = scale.joules();
+        run.is_scale_kinetic = scale.is_kinetic();
     }
     if (follower_.followed()) run.followed = figures_of(*follower_.followed());
     const Verdict verdict = is_measured ? figures->verdict : Verdict{.text = frame.no_verdict};

@@ -19,6 +19,7 @@ public:
     }
     /// J; 0 if nothing was added.
     [[nodiscard]] double joules() const { return std::max(kinetic_, highest_ - lowest_); }
+    [[nodiscard]] bool is_kinetic() const { return kinetic_ >= highest_ - lowest_; }
 
 private:
     double kinetic_ = 0;

@@ -51,7 +51,9 @@ PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
 }
 
 void PlayAlong::begin(const AnyGame& game) {
-    figures_.begin = LiveFigures::Begin{game.world().time(), game.world().energy().total()};
+    const Energy energy = game.world().energy();
+    figures_.begin = LiveFigures::Begin{game.world().time(), energy.total()};
+    figures_.energy_scale.add(energy);
 }
 
 std::vector<Stepping> PlayAlong::other_settings(const MakeGame& make) const {
