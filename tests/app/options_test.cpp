@@ -154,6 +154,13 @@ TEST(Options, MayNeedTheStepsOfARunOrItsSetting) {
     EXPECT_EQ(why_fixed(parse("--steps 3 --json j").options, fixed), "Keys choose it.");
 }
 
+TEST(Options, TheLineIsOfAWindow) {
+    EXPECT_FALSE(parse("").options.no_line);
+    EXPECT_TRUE(parse("--no-line").options.no_line);
+    for (const char* run : {"--no-line --headless", "--no-line --steps 3"})
+        EXPECT_THROW((void)parse(run), Error) << run;
+}
+
 // Each option that writes a file is compared with each other one.
 TEST(Options, WriteFilesOfTheirOwn) {
     const std::vector<std::string> outputs{"--record", "--video",  "--sheet", "--junit",

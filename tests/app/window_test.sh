@@ -66,6 +66,10 @@ xdotool key F1
 until_true shows_before || fail "F1 does not close the inspector"
 xdotool key F3
 until_true moves || fail "F3 does not resume"
+xdotool key F2
+until_true stands_still || fail "the game plays on below the help"
+xdotool key F2
+until_true moves || fail "the game does not go on when the help is closed"
 xdotool keydown F4
 until_true stands_still || fail "holding F4 does not end at the start of the game"
 xdotool keyup F4

@@ -69,6 +69,7 @@ enum Trait : unsigned {
     of_many_runs = 1U << 10U,   ///< allowed with --what-if
     keeps_setting = 1U << 11U,  ///< the setting of the run cannot be changed
     keeps_steps = 1U << 12U,    ///< needs each step as it was first taken; keeps the setting, too
+    in_window = 1U << 13U,      ///< excluded by --headless and --steps
 };
 
 /// An option, in one place.
@@ -159,6 +160,8 @@ const std::vector<Row>& rows() {
          of_many_runs | keeps_setting, "", "", &kinds::json},
         {"--inspector", "show what the timestep costs beside the picture, as F1 does in a window",
          &Given::inspector},
+        {"--no-line", "show no line above the picture about the timestep, in a window for players",
+         &Given::no_line, in_window},
         {"--profile", "write the times of all stages in Chrome's trace format", &Given::profile, 0,
          "", "", &kinds::json},
         {"--time-limit", help_of_time_limit, &Given::time_limit, of_many_runs, "", "S"},
@@ -251,6 +254,8 @@ void check_conflicts(const CLI::App& app, const Given& given) {
     const bool offscreen = given.surface == "osmesa" || given.surface == "egl";
     if (given.steps)
         refuse_all(app, drawn, "", ": draws, but --steps draws nothing; give one of them");
+    if (given.headless || given.steps)
+        refuse_all(app, in_window, "", ": is for a window, and this run opens none; leave it out");
     if (offscreen && !given.headless && !given.what_if)
         fail(Exit::usage, "--surface {}: draws without a window; add --headless", given.surface);
     if (given.surface == "window" && given.headless)

@@ -42,6 +42,7 @@ struct Options {
     std::filesystem::path energy;
     std::filesystem::path json;
     std::filesystem::path profile;
+    bool no_line = false;          ///< a window has none, see About::has_line
     bool inspector = false;        ///< frames show it; a window opens with it
     std::filesystem::path script;  ///< of a game: its input, - is stdin; empty: nobody plays
     std::filesystem::path keys;
@@ -52,7 +53,7 @@ struct Options {
     bool replay_anyway = false;              ///< also of another version or of a changed game
     bool what_if = false;                    ///< plays `replay` with other settings
     std::vector<Stepping> what_if_settings;  ///< empty: the usual ones
-    std::optional<double> time_limit;  ///< s, of real time
+    std::optional<double> time_limit;        ///< s, of real time
     bool quiet = false;
 };
 

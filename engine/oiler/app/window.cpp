@@ -82,12 +82,20 @@ bool GameWindow::frame(std::chrono::nanoseconds now) {
     const bool closes_menu = panels_.inspector && inspector_.has_menu();
     Requests requests = std::exchange(requests_, {});
     const bool filled = panels_.full_screen;
+    const bool helped = panels_.help;
     add_requests(requests, panels_, keys);
+    if (panels_.help != helped) wait_for_help(requests);
     if (panels_.full_screen != filled) window_->fill_screen(panels_.full_screen);
     control(requests, keys);
     draw(requests, keys, now);
     ++frames_;
     return state != Window::State::closed && !is_last_frame(requests, closes_menu);
+}
+
+/// A game that plays pauses until the help that covers it is closed.
+void GameWindow::wait_for_help(Requests& requests) {
+    if (panels_.help) help_pauses_ = !play_.clock().is_paused();
+    if (help_pauses_ && play_.clock().is_paused() != panels_.help) requests.pauses ^= true;
 }
 
 bool GameWindow::is_last_frame(const Requests& requests, bool closes_menu) const {
@@ -225,8 +233,9 @@ void GameWindow::present(Picture& picture, const Picture& overlay, const std::st
 }
 
 GameWindow::Layout GameWindow::layout() const {
-    const bool has_verdict = is_measured_ && !run_.options.quiet && !panels_.inspector &&
-                             run_.about.fixed_setting.empty();
+    const bool has_line = !run_.options.quiet && !run_.options.no_line && run_.about.has_line;
+    const bool has_verdict =
+        is_measured_ && has_line && !panels_.inspector && run_.about.fixed_setting.empty();
     return {window_->size(), panels_.inspector, has_verdict};
 }
 

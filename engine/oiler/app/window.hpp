@@ -48,6 +48,7 @@ private:
     [[nodiscard]] Layout layout() const;
     void control(const Requests& requests, const Input& keys);
     void take_from_shelf();
+    void wait_for_help(Requests& requests);
     void draw(const Requests& requests, const Input& keys, std::chrono::nanoseconds now);
     void add_game_overlays(Picture& picture, const Input& keys, std::chrono::nanoseconds now);
     [[nodiscard]] Picture overlay(Colour background, const std::string& status);
@@ -71,7 +72,8 @@ private:
     std::int64_t frames_ = 0;
     bool is_measured_ = false;  ///< whether there is anything to measure
     std::chrono::nanoseconds last_frame_;
-    bool is_lost_ = false;  ///< the display has ended
+    bool help_pauses_ = false;  ///< the last help paused the game
+    bool is_lost_ = false;      ///< the display has ended
 };
 
 /// Shows the game in a window in real time until the user quits, or the display or a replay ends.

@@ -35,6 +35,9 @@ struct About {
     bool changes_in_play = true;
     /// Why a player cannot change the setting; empty: it can be changed.
     std::string_view fixed_setting = "";
+    /// Whether a window says above the picture what the timestep costs. A game that is shown to
+    /// players says false; F1 still opens the inspector.
+    bool has_line = true;
 };
 
 template <class G>
