@@ -121,6 +121,7 @@ TEST(LiveWhatIf, BeginsAgainWithTheGameAsItIs) {
     along.start_from(game, 60);
     EXPECT_EQ(along.figures().begin->time, 1);
     EXPECT_EQ(along.figures().begin->energy, energy);
+    EXPECT_EQ(along.figures().energy_scale.joules(), game.world().energy().kinetic);
     game.step(60, 120, tap);
     along.play_until(180);
     const WhatIf result = *along.result();
