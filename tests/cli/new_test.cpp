@@ -135,7 +135,7 @@ TEST(New, TheTestWritesGoldenFramesAndThenComparesThem) {
     const Outcome first = test("true");
     if (first.exit == 3) GTEST_SKIP() << first.err;
     EXPECT_EQ(first.exit, 0) << first.err;
-    EXPECT_EQ(desk.names("game/tests/golden/game").size(), 15U + 2);
+    EXPECT_EQ(desk.names("game/tests/golden/game").size(), 20U + 2);
     const std::string golden = desk.text("game/tests/golden/game/manifest.json");
     EXPECT_EQ(test("export CI=true").exit, 0);
     const Outcome changed = test("echo '100 press Space' >tests/play.txt");
