@@ -24,7 +24,8 @@ std::string KeptPace::text() const {
         return fmt::format("too slow here: {:.0f} % of its pace. A lower rate or --headless helps",
                            100 * (1 - late_));
     if (work_ > 0.05)
-        return fmt::format("{:.0f} frames a second: a smaller window or --headless helps", 1 / work_);
+        return fmt::format("{:.0f} frames a second: a smaller window or --headless helps",
+                           1 / work_);
     return {};
 }
 
