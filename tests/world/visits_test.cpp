@@ -256,6 +256,39 @@ TEST(Timers, ThatRepeatComeAsOftenAtAnyRate) {
     }
 }
 
+// Two messages repeat, several times per tick: all come in the tick that they are due at, in the
+// order of their times.
+TEST(Timers, ThatRepeatComeInTheirOrder) {
+    World world(1, {.rate = {30}});
+    const double every[] = {0.007, 0.011};
+    double next[] = {0, 0};
+    for (const int i : {0, 1}) world.schedule(0, Health{i});
+    double last = 0;
+    for (; world.time() <= 1; world.step())
+        world.due<Health>([&](const Health& health) {
+            double& time = next[health.points];
+            EXPECT_GE(time, last - 1e-12);
+            EXPECT_LT(world.time() - time, 1 / 30.0);
+            last = time;
+            time += every[health.points];
+            world.schedule(every[health.points], health);
+        });
+    for (const int i : {0, 1}) EXPECT_GT(next[i], 1);
+}
+
+TEST(Timers, AreNotLostIfOneThrows) {
+    World world(1);
+    for (const int i : {1, 2, 3}) world.schedule(0, Health{i});
+    std::vector<int> heard;
+    const auto hear = [&](const Health& health) {
+        if (health.points == 1 && heard.empty()) throw std::runtime_error("once");
+        heard.push_back(health.points);
+    };
+    EXPECT_THROW(world.due<Health>(hear), std::runtime_error);
+    world.due<Health>(hear);
+    EXPECT_EQ(heard, (std::vector<int>{2, 3}));
+}
+
 TEST(Timers, RefuseTimesThatAreNone) {
     World world(1);
     for (const double seconds : {-0.1, std::nan(""), HUGE_VAL})

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <iterator>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -47,26 +46,37 @@ public:
     }
     [[nodiscard]] std::string_view type() const override { return type_name<T>(); }
 
-    struct Entry {
+    void add(double time, T message, bool waits) {
+        entries_.push_back({time, std::move(message), waits});
+    }
+    /// Lets those that wait be taken, too.
+    void begin() {
+        for (Entry& entry : entries_) entry.waits = false;
+    }
+    struct Due {
         double time;  ///< s
         T message;
     };
-
-    void add(double time, T message) { entries_.push_back({time, std::move(message)}); }
-    /// Removes and returns the messages of after < time <= until: earliest first, then in order of
-    /// adding.
-    [[nodiscard]] std::vector<Entry> take(double after, double until) {
-        const auto due = std::stable_partition(
-            entries_.begin(), entries_.end(),
-            [&](const Entry& entry) { return entry.time <= after || entry.time > until; });
-        std::vector<Entry> taken(std::make_move_iterator(due),
-                                 std::make_move_iterator(entries_.end()));
-        entries_.erase(due, entries_.end());
-        std::ranges::stable_sort(taken, {}, &Entry::time);
-        return taken;
+    /// Removes and returns the earliest message of time <= until that does not wait, of several the
+    /// one that was added first.
+    [[nodiscard]] std::optional<Due> take(double until) {
+        auto first = entries_.end();
+        for (auto entry = entries_.begin(); entry != entries_.end(); ++entry)
+            if (!entry->waits && entry->time <= until &&
+                (first == entries_.end() || entry->time < first->time))
+                first = entry;
+        if (first == entries_.end()) return std::nullopt;
+        Due due{first->time, std::move(first->message)};
+        entries_.erase(first);
+        return due;
     }
 
 private:
+    struct Entry {
+        double time;  ///< s
+        T message;
+        bool waits;  ///< for the next call of `due`
+    };
     std::vector<Entry> entries_;
 };
 

@@ -273,21 +273,21 @@ public:
     /// repeats comes as often at any rate.
     template <std::copyable T>
     void schedule(double seconds, T message) {
-        timers<T>().add(time_in(seconds), std::move(message));
+        const double time = time_in(seconds);
+        timers<T>().add(time, std::move(message), time == counted_from_);
     }
     /// Calls f(message) for the messages of this type that are due, the earliest first, also for
-    /// later ones that f schedules and that are due by now. Like `each`, it is a visit.
+    /// later ones that f schedules and that are due by now. Like `each`, it is a visit. If f
+    /// throws, the others stay.
     template <class T, class F>
     void due(F&& f) {
         const Visit visit(*this);
         const double until = time() + round_off_in_steps * settings_.stepping.rate.dt();
-        double last = -1;
-        for (auto taken = timers<T>().take(last, until); !taken.empty();
-             taken = timers<T>().take(last, until))
-            for (auto& [at, message] : taken) {
-                counted_from_ = last = at;
-                f(message);
-            }
+        timers<T>().begin();
+        while (auto due = timers<T>().take(until)) {
+            counted_from_ = due->time;
+            f(due->message);
+        }
     }
     /// The random numbers of the world, from the seed of its settings.
     [[nodiscard]] Random& random() { return random_; }
