@@ -49,8 +49,9 @@ TEST(Sliding, FrictionFeelsDampingThatPresses) {
 }
 
 /// The error after 1 s of a ball that slides down a slope of 0.6 rad with friction 0.5, which
-/// swings along its normal n by A·sin(ωt). Along it, u' = −g·sin w + μ·(g·cos w − A·ω²·sin ωt).
-double error_on_swinging_slope(const char* method, int rate) {
+/// swings along its normal n by A·sin(ωt). Along it, u' = f(t) − b·u with drag b, and f = −g·sin w
+/// + μ·(g·cos w − A·ω²·sin ωt + b·A·ω·cos ωt).
+double error_on_swinging_slope(const char* method, int rate, double drag = 0) {
     const double angle = 0.6, mu = 0.5, amplitude = 0.2, omega = 3.7;
     const Vec3 n{-std::sin(angle), std::cos(angle)};
     const Vec3 up{std::cos(angle), std::sin(angle)};
@@ -62,9 +63,17 @@ double error_on_swinging_slope(const char* method, int rate) {
     const Entity ball = world.spawn(Body{.position = n * 0.3,
                                          .velocity = n * (amplitude * omega) - up * 0.2,
                                          .contact = Contact{0.3}});
+    if (drag > 0) world.attach(ball, LinearDrag{drag});
     world.step(rate);
-    const double pushes = g * std::cos(angle) + amplitude * omega * (std::cos(omega) - 1);
-    const double u = -0.2 - g * std::sin(angle) + mu * pushes;
+    const auto pulled = [&](double t) {
+        const double push = g * std::cos(angle) - amplitude * omega * omega * std::sin(omega * t) +
+                            drag * amplitude * omega * std::cos(omega * t);
+        return (mu * push - g * std::sin(angle)) * std::exp(-drag * (1 - t));
+    };
+    double u = -0.2 * std::exp(-drag);
+    constexpr double part = 1.0 / 1000;  // Simpson's rule
+    for (int i = 0; i < 1000; ++i)
+        u += (pulled(i * part) + 4 * pulled((i + 0.5) * part) + pulled((i + 1) * part)) * part / 6;
     const Vec3 v = world.velocity(ball);
     return std::abs(v[0] * up[0] + v[1] * up[1] - u);
 }
@@ -82,6 +91,16 @@ TEST(Sliding, FrictionFeelsHowTheSurfaceAccelerates) {
         EXPECT_LT(error_on_swinging_slope("rk4", rate),
                   1.01 * change * 3.7 * 3.7 * std::pow(h, 4) / 2880 + 1e-13)
             << rate;
+    }
+}
+
+// With drag, which presses the ball onto the slope and off it, half the step divides the error
+// by 4.
+TEST(Sliding, FrictionOfDragOnAnAcceleratingSurfaceHasOrderTwo) {
+    for (const char* method : {"velocity_verlet", "pefrl", "exact", "implicit_midpoint"}) {
+        const double coarse = error_on_swinging_slope(method, 60, 1);
+        EXPECT_LT(coarse, 1e-3) << method;
+        EXPECT_NEAR(coarse / error_on_swinging_slope(method, 120, 1), 4, 0.2) << method;
     }
 }
 

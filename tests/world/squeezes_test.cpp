@@ -211,5 +211,52 @@ TEST(Squeezes, AHoleAsWideAsTheBallEndsNoRun) {
     }
 }
 
+/// How often a ball in a V of two moving half-spaces is crushed, or lifted, in 2 s. Normals are
+/// less than 90° apart, so that friction below 1 never holds the ball between them.
+std::pair<int, int> crushes_and_lifts(Dice& dice, bool swings, bool on_rope) {
+    World world = world_of("semi_implicit_euler", 60, 2, {0, -10});
+    for (const double side : {-1.0, 1.0}) {
+        Obstacle wall{.shape = HalfSpaceShape{{side * dice.uniform(0.3, 1), 1}, -0.7},
+                      .friction = 0.5};
+        if (swings)
+            wall.swing = Swing{{dice.uniform(-0.3, 0.3), dice.uniform(-0.5, 0.5)},
+                               dice.uniform(1, 4),
+                               dice.uniform(0, 6)};
+        else
+            wall.velocity = {-side * dice.uniform(-0.1, 0.5), dice.uniform(-0.3, 0.3)};
+        world.add_obstacle(wall);
+    }
+    const Entity ball =
+        world.spawn({.position = {dice.uniform(-0.3, 0.3), 1.2}, .contact = Contact{0.2}});
+    if (on_rope) world.link_to_point(ball, {0, 5}, {.rest_length = 20, .pulls_only = true});
+    int crushes = 0;
+    int lifts = 0;
+    for (int i = 0; i < 120; ++i) {
+        world.step();
+        for (const Impact& impact : world.impacts()) {
+            crushes += impact.kind == Meeting::crushed ? 1 : 0;
+            lifts += impact.kind == Meeting::lifted ? 1 : 0;
+        }
+    }
+    return {crushes, lifts};
+}
+
+// One of these 400 balls is crushed nevertheless, at an instant at which it sticks to one wall and
+// begins to be pushed by the other.
+TEST(Squeezes, AnOpenVThatSwingsCrushesNothing) {
+    Dice dice(17);
+    int crushes = 0;
+    for (int run = 0; run < 400; ++run) crushes += crushes_and_lifts(dice, true, false).first;
+    EXPECT_LE(crushes, 1);
+}
+
+// A slack rope changes nothing: the walls carry the ball, and do not run over it.
+TEST(Squeezes, AnOpenVLiftsNoBallOnASlackRope) {
+    Dice dice(18);
+    int lifts = 0;
+    for (int run = 0; run < 60; ++run) lifts += crushes_and_lifts(dice, false, true).second;
+    EXPECT_LE(lifts, 20);
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -424,8 +424,11 @@ private:
     /// Steps a body on the obstacles that bear it, and returns the time until that ends, s.
     T stay_on(State& state, const Support& support) {
         rest_on(support, state);
-        if (is_pinned(support))
+        if (is_pinned(support)) {
             if (const auto leg = ride_between(state, support)) return advance(state, *leg);
+            if (const auto* const loose = loosening(state, support))
+                return stay_on(state, support.without_touch(*loose));
+        }
         const Vec a = pressing(support, state);
         const bool on_curve = support.size() == 1 && is_round(near_of(support).sides);
         const bool is_held = sticks(support, state, a);
@@ -489,6 +492,7 @@ private:
     using Base::is_pinned;
     using Base::leaving;
     using Base::left_;
+    using Base::loosening;
     using Base::near_of;
     using Base::nears_;
     using Base::place;

@@ -56,6 +56,15 @@ protected:
         return leg.tau > epsilon * left_ ? std::optional(leg) : std::nullopt;
     }
 
+    /// The touch of a pinned body whose push ends now; null if there is none.
+    [[nodiscard]] const TouchOf<T, Axes>* loosening(const State& state,
+                                                    const Support& support) const {
+        const T soon = left_ / 1024;
+        const Vec push = pushes(support, between(state, support, soon), soon);
+        const auto least = std::min_element(push.axis.begin(), push.axis.end());
+        return *least < 0 ? &support[static_cast<std::size_t>(least - push.axis.begin())] : nullptr;
+    }
+
     template <class Move>
     void end_at_others(const State& state, const Support& support, const Vec& a, Leg& leg,
                        Move move) {
@@ -124,14 +133,18 @@ private:
         }
         return true;
     }
-    /// The least push of an obstacle, m/s², with friction; negative if it does not bear the body.
-    [[nodiscard]] T least_push(const Support& support, const State& at, T tau) const {
-        if (!touches_all(support, at, tau)) return T(-1);
+    /// The pushes of the obstacles, m/s², with friction.
+    [[nodiscard]] Vec pushes(const Support& support, const State& at, T tau) const {
         const Touches there = touches_of(support, at, tau);
         const Vec a = body_.accelerate(at, start_ + tau);
-        const Vec pushes = support.with(there).pushes(
+        return support.with(there).pushes(
             at.v, [&](const TouchOf<T, Axes>& touch) { return -OfPull<T, Axes>{}(touch, a); });
-        return *std::min_element(pushes.axis.begin(), pushes.axis.end());
+    }
+    /// The least of them; negative if it does not bear the body.
+    [[nodiscard]] T least_push(const Support& support, const State& at, T tau) const {
+        if (!touches_all(support, at, tau)) return T(-1);
+        const Vec push = pushes(support, at, tau);
+        return *std::min_element(push.axis.begin(), push.axis.end());
     }
 
 protected:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "oiler/physics/contacts/friction.hpp"
 #include "oiler/physics/contacts/pinned.hpp"
 
 namespace oiler {

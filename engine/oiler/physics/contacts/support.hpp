@@ -9,7 +9,6 @@
 #include <type_traits>
 
 #include "oiler/math/matrix.hpp"
-#include "oiler/physics/contacts/course.hpp"
 #include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/state.hpp"
 
@@ -133,6 +132,14 @@ public:
         }
         return solve(with_friction, wanted);
     }
+    /// The other touches.
+    [[nodiscard]] Support without_touch(const Touch& touch) const {
+        Support others = *this;
+        const auto end = others.planes_.begin() + static_cast<std::ptrdiff_t>(count_);
+        others.count_ = static_cast<std::size_t>(std::remove(others.planes_.begin(), end, &touch) -
+                                                 others.planes_.begin());
+        return others;
+    }
     /// The same touches at another instant.
     [[nodiscard]] Support with(std::span<const Touch> touches) const {
         Support then = *this;
@@ -240,46 +247,6 @@ private:
     using Normals<T, Axes>::sum_of_normals;
     using Normals<T, Axes>::weights;
 };
-
-/// The direction of a slide, against which friction acts.
-template <std::floating_point T, int Axes>
-struct Friction {
-    Vec<T, Axes> direction;  ///< at the start of a step, of length 1, relative to the surface
-    Vec<T, Axes> surface;    ///< m/s
-    bool turns;              ///< whether the body may slide in two directions
-    const Course<T, Axes>* course = nullptr;  ///< of the surface; null if it does not accelerate
-    T start = 0;                              ///< s, of the slide, in the course's time
-
-    /// By what the surface's acceleration has changed `tau` s after the start of the slide, m/s².
-    [[nodiscard]] Vec<T, Axes> change(T tau) const {
-        if (!course) return {};
-        return course->acceleration_at(start + tau) - course->acceleration_at(start);
-    }
-    [[nodiscard]] Vec<T, Axes> against(const Vec<T, Axes>& v) const {
-        const Vec<T, Axes> slip = v - surface;
-        return turns && dot(slip, direction) > 0 ? -normalised(slip) : -direction;
-    }
-};
-
-/// How a slide ends under a constant pull along a plane, weaker than friction.
-template <std::floating_point T, int Axes>
-struct SlideEnd {
-    T time;            ///< s
-    Vec<T, Axes> way;  ///< m
-};
-
-/// The end of v' = p − g·v/|v| with accelerations |p| < g of pull and grip. The quantity
-/// g·|v| + p·v falls by g² − p² per second; the way follows from the derivatives of v·|v| and
-/// (p·v)·v.
-template <std::floating_point T, int Axes>
-[[nodiscard]] SlideEnd<T, Axes> slide_end(const Vec<T, Axes>& v, const Vec<T, Axes>& pull, T grip) {
-    const T speed = length(v);
-    const T along = dot(v, pull);
-    const T surplus = grip * grip - dot(pull, pull);
-    const T both = (2 * grip * speed + along) / (4 * grip * grip - dot(pull, pull));
-    return {(grip * speed + along) / surplus,
-            v * both + pull * ((3 * along * both + speed * speed) / (4 * surplus))};
-}
 
 /// The moves of a point out of obstacles: out of the one that it is deepest in, then out of that
 /// and the deepest of the others, so that a narrow wedge takes few moves.

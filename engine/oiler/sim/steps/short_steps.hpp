@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "oiler/physics/advance.hpp"
-#include "oiler/physics/contacts/support.hpp"
+#include "oiler/physics/contacts/friction.hpp"
 #include "oiler/physics/response.hpp"
 #include "oiler/sim/rows/row_physics.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
@@ -57,12 +57,12 @@ public:
         brake_before(state);
         hold_against_damping(state, braking_.t);
         physics_.damp_before(state);
-        state.v = support_.following(state.v);
+        follow(state, braking_.t);
     }
     void damp_after(Motion& state) {
         hold_against_damping(state, end());
         physics_.damp_after(state);
-        state.v = support_.following(state.v);
+        follow(state, end());
         brake_after(state);
     }
     [[nodiscard]] Vector solve(const Motion& at, T tau, const Vector& residual) {
@@ -82,7 +82,7 @@ public:
         brake_before(state);
         const double middle = t + static_cast<double>(braking_.half_step);
         physics_.respond_to(state, along(physics_.field(state.x, t), state.v, middle));
-        if (braking_.damping_presses) state.v = support_.following(state.v);
+        if (braking_.damping_presses) follow(state, end());
         brake_after(state);
     }
 
@@ -109,7 +109,7 @@ private:
     }
     /// Brakes for `tau` s with the grip at `at`.
     void brake(Motion& state, const Motion& at, T tau, double t) {
-        const T lost = support_.grip(physics_.accelerate(at, t) - surface_change(t)) * tau;
+        const T lost = friction_.grip(support_, physics_.accelerate(at, t), since(t)) * tau;
         if (!friction_.turns) {
             state.v -= friction_.direction * lost;
             return;
@@ -119,15 +119,14 @@ private:
         state.v = lost < speed ? slip * (1 - lost / speed) : Vector{};
         if (friction_.surface != Vector{}) state.v += friction_.surface;
     }
-    /// By what the acceleration of the surface has changed in the step, m/s².
-    [[nodiscard]] Vector surface_change(double t) const {
-        return friction_.change(static_cast<T>(t - braking_.t));
+    /// s, since the start of the step
+    [[nodiscard]] T since(double t) const { return static_cast<T>(t - braking_.t); }
+    void follow(Motion& state, double t) const {
+        state.v = friction_.following(support_, state.v, since(t));
     }
     [[nodiscard]] Vector along(const Vector& a, const Vector& v, double t) const {
-        const Vector change = surface_change(t);
-        const T grip = support_.grip(a - change);
-        const Vector free = support_.without_push(a - change) + change;
-        return grip == 0 || by_flow_ ? free : free + friction_.against(v) * grip;
+        return by_flow_ ? friction_.borne(support_, a, since(t))
+                        : friction_.braked(support_, a, v, since(t));
     }
 
     Physics& physics_;

@@ -13,103 +13,13 @@
 #include "oiler/sim/links/link_rows.hpp"
 #include "oiler/sim/links/link_solver.hpp"
 #include "oiler/sim/links/point_links.hpp"
-#include "oiler/sim/steps/area_crossings.hpp"
-#include "oiler/sim/steps/land_row.hpp"
+#include "oiler/sim/steps/land_linked_rows.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
 #include "oiler/sim/store/columns.hpp"
 #include "oiler/sim/store/links.hpp"
 
 namespace oiler {
 namespace {
-
-/// The motion of a linked row in a step: the links act on it by the mean acceleration of the step
-/// without obstacles, because the motions of rows depend on each other.
-template <std::floating_point T, int Axes>
-class MeanMotion {
-public:
-    using Vector = Vec<T, Axes>;
-    using Motion = State<T, Axes>;
-
-    MeanMotion(const Motion& from, const Motion& to, T dt)
-        : a_((to.v - from.v) * (1 / dt)),
-          shift_((to.x - from.x) * (1 / dt) - (from.v + to.v) * T(0.5)) {}
-
-    [[nodiscard]] Motion fly(const Motion& from, T, T tau) const { return move(from, a_, tau); }
-    /// With the shift that the method gives the row along the obstacles, so that long slides on
-    /// springs keep the method's stability.
-    [[nodiscard]] Motion slide(const Motion& from, T, T tau, const Support<T, Axes>& support,
-                               const Friction<T, Axes>& friction) const {
-        const Vector change = friction.change(tau / 2);
-        const T grip = support.grip(a_ - change);
-        const Vector free = support.without_push(a_ - change) + change;
-        Motion end = move(from, grip == 0 ? free : free + friction.against(from.v) * grip, tau);
-        end.x += support.change_without_push(shift_) * tau;
-        return end;
-    }
-    [[nodiscard]] Vector accelerate(const Motion&, T) const { return a_; }
-    [[nodiscard]] static constexpr bool forces_change() { return false; }
-
-private:
-    [[nodiscard]] static Motion move(const Motion& from, const Vector& a, T tau) {
-        return {from.x + (from.v + a * (tau / 2)) * tau, from.v + a * tau};
-    }
-
-    Vector a_;      ///< m/s²
-    Vector shift_;  ///< m/s
-};
-
-/// Whether a row may meet one of the obstacles near it in a step.
-template <std::floating_point T, int Axes>
-bool may_meet_any(const std::vector<Near<T, Axes>>& nears, const State<T, Axes>& from, T way,
-                  T radius) {
-    return std::ranges::any_of(nears, [&](const Near<T, Axes>& near) {
-        return near.obstacle.bounded || near.obstacle.course.moves() ||
-               gap(near, from.x, T(0), radius) <= way;
-    });
-}
-
-/// Lets linked rows land, and tells whether any state `changed`. This has order 1 with every
-/// method. Returns the first row whose impacts have no end.
-template <std::floating_point T, int Axes>
-std::optional<Divergence> land_linked_rows(Columns<T, Axes>& columns,
-                                           const MotionColumns<T, Axes>& before, std::int64_t tick,
-                                           T dt, bool& changed) {
-    auto& contacts = columns.contacts;
-    const auto earlier = static_cast<std::ptrdiff_t>(contacts.impacts.size());
-    std::vector<Near<T, Axes>>& nears = contacts.nears_of_parts.front();
-    for (std::size_t row = 0; row < columns.size; ++row) {
-        if (contacts.radius[row] == Contacts<T, Axes>::no_contact) continue;
-        const State<T, Axes> start = load<T>(before, row);
-        const State<T, Axes> end = load<T>(columns.motion, row);
-        const std::size_t known = contacts.impacts.size();
-        const T way = largest_way(start, end, dt) +
-                      contacts.obstacles.hidden_way(start.x, contacts.radius[row]);
-        contacts.obstacles.find_near(start.x, way, contacts.radius[row], contacts.meets(row), tick,
-                                     dt, nears);
-        if (may_meet_any(nears, start, way, contacts.radius[row])) {
-            MeanMotion<T, Axes> body(start, end, dt);
-            State<T, Axes> state = start;
-            const Landed landed = land_row<T, Axes>(contacts, state, row, {tick, dt}, way, body,
-                                                    contacts.impacts, nears);
-            if (landed == Landed::unresolved)
-                return Divergence{tick + 1, row, 0, Divergence::Of::impacts};
-            const State<T, Axes> free = body.fly(start, T(0), dt);
-            const bool is_in_any = std::ranges::any_of(nears, [&](const Near<T, Axes>& near) {
-                return gap(near, end.x, dt, contacts.radius[row]) < 0;
-            });
-            if (is_in_any || state.x != free.x || state.v != free.v) {
-                store(state, columns.motion, row);
-                changed = true;
-            }
-        }
-        if (!contacts.areas.empty())
-            AreaCrossings(contacts, row, tick, dt)
-                .list(start, load<T>(columns.motion, row), contacts.impacts, known,
-                      contacts.impacts.size(), nears);
-    }
-    std::sort(contacts.impacts.begin() + earlier, contacts.impacts.end());
-    return std::nullopt;
-}
 
 /// The physics that a method steps: all rows and the links between them.
 template <std::floating_point T, int Axes>
@@ -189,7 +99,7 @@ public:
 
     [[nodiscard]] std::optional<Divergence> land(std::int64_t tick, T dt) {
         bool changed = false;
-        const auto lost = land_linked_rows<T, Axes>(columns_, cache_.before, tick, dt, changed);
+        const auto lost = land_linked_rows<T, Axes>(columns_, cache_.before, {tick, dt}, changed);
         if (changed) cache_.field_valid = false;
         return lost;
     }
