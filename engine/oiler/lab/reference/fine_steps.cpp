@@ -128,11 +128,22 @@ void add_kinks(Trajectory& trajectory, const Bodies& bodies, const Rate& rate) {
     }
 }
 
-bool any_linked_kink(const Trajectory& trajectory, const Bodies& bodies) {
-    if (trajectory.kinks.empty()) return false;
+/// Linked bodies keep the order of the method in a slide without friction on a plane.
+bool keeps_order(const Obstacle& one) {
+    return one.friction == 0 && !one.swing && std::holds_alternative<HalfSpaceShape>(one.shape);
+}
+
+/// Whether a body with links has met an obstacle, or slides now, with order 1.
+bool any_linked_lands(const Trajectory& trajectory, const Bodies& bodies) {
+    if (!bodies.has_obstacles()) return false;
+    const auto slides = [&](const Touch& touch) {
+        return !keeps_order(bodies.obstacle(touch.obstacle));
+    };
     const std::vector<bool> linked = bodies.linked_rows();
     for (std::size_t row = 0; row < linked.size(); ++row)
-        if (linked[row] && !trajectory.kinks[row].empty()) return true;
+        if (linked[row] && ((!trajectory.kinks.empty() && !trajectory.kinks[row].empty()) ||
+                            std::ranges::any_of(bodies.touches(row), slides)))
+            return true;
     return false;
 }
 
@@ -204,7 +215,10 @@ private:
         trajectory.states.reserve(trajectory.bodies * static_cast<std::size_t>(samples_.count));
         for (std::int64_t sample = 0; sample < samples_.count; ++sample) {
             const bool goes_on = !effort_.stopped() && follower.go_to(sample);
-            if (goes_on) add_kinks(trajectory, follower.bodies(), {rate});
+            if (goes_on) {
+                add_kinks(trajectory, follower.bodies(), {rate});
+                first_order_ = first_order_ || any_linked_lands(trajectory, follower.bodies());
+            }
             has_too_many_impacts_ = follower.has_too_many_impacts() ||
                                     std::ranges::any_of(trajectory.kinks, [](const auto& kinks) {
                                         return kinks.size() > most_impacts;
@@ -214,7 +228,6 @@ private:
                 trajectory.states.push_back(follower.bodies().state(row));
             if (!std::isfinite(follower.bodies().energy().total())) return std::nullopt;
         }
-        first_order_ = first_order_ || any_linked_kink(trajectory, follower.bodies());
         return trajectory;
     }
 
