@@ -548,6 +548,37 @@ TEST(ReferenceByFineSteps, OfLinkedBodiesThatLandIsRightForAShortTime) {
     EXPECT_GT(most, 0);
 }
 
+/// Two linked bodies on a floor, of which the left one starts with 3 m/s to the right.
+Scene sliding_pair(double friction) {
+    return parse_scene(
+        fmt::format("[scene]\naxes = 2\nduration = 2.0\n[gravity]\nacceleration = [0.0, -9.81]\n"
+                    "[[plane]]\nnormal = [0.0, 1.0]\nfriction = {}\n"
+                    "[[body]]\nname = \"a\"\nvelocity = [3.0, 0.0]\ncontact = 0.0\n"
+                    "[[body]]\nname = \"b\"\nposition = [1.0, 0.0]\ncontact = 0.0\n"
+                    "[[spring]]\nbody = \"a\"\nto = \"b\"\nstiffness = 50.0\n"
+                    "rest_length = 1.0\n",
+                    friction),
+        "test");
+}
+
+// The middle moves with 1.5 m/s, and the stretch is −0.3 m·sin(10 t/s).
+TEST(ReferenceByFineSteps, OfLinkedBodiesThatSlideFreelyIsThatOfTheClosedForm) {
+    const Reference reference = make_reference(sliding_pair(0), effort());
+    ASSERT_EQ(reference.meaningful_until, 2);
+    ASSERT_LE(reference.floor().position, 1e-9);
+    for (Real t = 0.01L; t < 2; t += 0.0131L)
+        EXPECT_NEAR(static_cast<double>(reference.motion->at(0, t).x[0]),
+                    static_cast<double>(1.5L * t + 0.15L * std::sin(10 * t)),
+                    reference.floor().position)
+            << static_cast<double>(t);
+}
+
+TEST(ReferenceByFineSteps, SaysThatLinkedBodiesSlideWithOrderOneIfThereIsFriction) {
+    const Reference reference = make_reference(sliding_pair(0.3), effort());
+    EXPECT_LT(reference.meaningful_until, 2);
+    EXPECT_TRUE(holds(reference.why_no_longer, "linked bodies land with order 1"));
+}
+
 // A stiff link beside slow springs. Samples for a loose tolerance once were too few for it, and the
 // motion was called chaotic after 0.04 s.
 TEST(Reference, OfALooseToleranceIsMeaningfulToTheEnd) {
