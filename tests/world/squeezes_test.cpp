@@ -258,5 +258,32 @@ TEST(Squeezes, AnOpenVLiftsNoBallOnASlackRope) {
     EXPECT_LE(lifts, 20);
 }
 
+// Two rollers that turn towards each other draw a ball in until it touches both: √(0.65² − 0.5²) m
+// above the line between their centres. From a friction of √(0.65² − 0.5²)/0.5 = 0.83 on, no pushes
+// bear it there, however large: it is locked, not thrown.
+TEST(Squeezes, RollersThatDrawABallInHoldIt) {
+    for (const char* method : {"velocity_verlet", "rk4"})
+        for (const double friction : {0.5, 1.5, 30.0, 1e6, 1e300})
+            for (const bool on_rope : {false, true}) {
+                World world = world_of(method, 30, 2, {0, -10});
+                for (const double side : {-1, 1})
+                    world.add_obstacle({.shape = CircleShape{{0.5 * side, 0}, 0.4},
+                                        .friction = friction,
+                                        .belt = -1.5 * side});
+                const Entity ball = world.spawn(
+                    {.position = {0.05, 1}, .velocity = {0.3, 0}, .contact = Contact{0.25}});
+                if (on_rope)
+                    world.link_to_point(
+                        ball, {0, 9},
+                        {.stiffness = 20, .rest_length = 60, .pulls_only = true});
+                world.step(60);
+                const double y = std::sqrt(0.65 * 0.65 - 0.5 * 0.5);
+                EXPECT_NEAR(world.position(ball)[0], 0, 1e-12) << friction;
+                EXPECT_NEAR(world.position(ball)[1], y, 1e-12) << friction;
+                EXPECT_LE(std::hypot(world.velocity(ball)[0], world.velocity(ball)[1]), 1e-12);
+                EXPECT_TRUE(impacts(world, 30).empty()) << method << ' ' << friction;
+            }
+}
+
 }  // namespace
 }  // namespace oiler::test

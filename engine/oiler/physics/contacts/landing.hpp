@@ -425,8 +425,9 @@ private:
     T stay_on(State& state, const Support& support) {
         rest_on(support, state);
         if (is_pinned(support)) {
+            if (const auto leg = stay_locked(state, support)) return advance(state, *leg);
             if (const auto leg = ride_between(state, support)) return advance(state, *leg);
-            if (const auto* const loose = loosening(state, support))
+            if (const auto* const loose = loosening(state, support, left_ / 1024))
                 return stay_on(state, support.without_touch(*loose));
         }
         const Vec a = pressing(support, state);
@@ -505,6 +506,7 @@ private:
     using Base::slide;
     using Base::speed_noise;
     using Base::start_;
+    using Base::stay_locked;
     using Base::stick;
     using Base::sticks;
     using Base::touches;

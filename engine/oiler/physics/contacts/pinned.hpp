@@ -34,6 +34,11 @@ protected:
             if (near_of(support, i).is_moved()) return false;
         return true;
     }
+    [[nodiscard]] static bool moves(const Support& support) {
+        for (std::size_t i = 0; i < support.size(); ++i)
+            if (near_of(support, i).obstacle.course.moves()) return true;
+        return false;
+    }
     [[nodiscard]] static bool is_pinned(const Support& support) {
         return Axes > 1 && support.size() == Axes && !stands(support);
     }
@@ -56,13 +61,47 @@ protected:
         return leg.tau > epsilon * left_ ? std::optional(leg) : std::nullopt;
     }
 
-    /// The touch of a pinned body whose push ends now; null if there is none.
-    [[nodiscard]] const TouchOf<T, Axes>* loosening(const State& state,
-                                                    const Support& support) const {
-        const T soon = left_ / 1024;
-        const Vec push = pushes(support, between(state, support, soon), soon);
+    /// The touch that a pinned body leaves `soon`, s from now, because the others push it off that
+    /// one; null if it leaves none.
+    [[nodiscard]] const TouchOf<T, Axes>* loosening(const State& state, const Support& support,
+                                                    T soon) const {
+        const State at = between(state, support, soon);
+        const Vec push = pushes(support, at, soon);
         const auto least = std::min_element(push.axis.begin(), push.axis.end());
-        return *least < 0 ? &support[static_cast<std::size_t>(least - push.axis.begin())] : nullptr;
+        if (*least >= 0) return nullptr;
+        const Touches there = touches_of(support, at, soon);
+        const Vec a = body_.accelerate(at, start_ + soon);
+        const auto needed = [&](const TouchOf<T, Axes>& touch) {
+            return -OfPull<T, Axes>{}(touch, a);
+        };
+        for (std::size_t i = 0; i < Axes; ++i) {
+            const Support others = support.with(there).without_touch(there[i]);
+            const Vec by = others.pushes(at.v, needed);
+            const bool bears = *std::min_element(by.axis.begin(), by.axis.end()) >= 0;
+            if (bears && dot(there[i].normal, others.pushed(at.v, by)) >= needed(there[i]))
+                return &support[i];
+        }
+        return moves(support) ? &support[static_cast<std::size_t>(least - push.axis.begin())]
+                              : nullptr;
+    }
+    /// Holds a body that the belts of standing obstacles draw in so much that no pushes with
+    /// friction bear it: wherever it went, it would go into one of them.
+    [[nodiscard]] std::optional<Leg> stay_locked(const State& state, const Support& support) {
+        const auto is_locked = [&](const State& at, T tau) {
+            return least_push(support, at, tau) < 0 && !loosening(at, support, tau);
+        };
+        if (moves(support) || enters_other(state, support) || !is_locked(state, T(0)))
+            return std::nullopt;
+        const auto move = [&](T) { return State{state.x, {}}; };
+        Leg leg{move(left_), left_};
+        end_at_others(state, support, body_.accelerate(state, start_), leg, move);
+        if (!body_.forces_change()) {
+            settled_ = leg.tau == left_;
+            return leg;
+        }
+        const auto locks = [&](const State& at, T tau) { return is_locked(at, tau) ? T(1) : T(-1); };
+        end_where_negative(locks, T(1), leg, move);
+        return leg;
     }
 
     template <class Move>
@@ -148,6 +187,8 @@ private:
     }
 
 protected:
+    bool settled_ = false;  ///< the body stays in place until the forces change
+
     using Base::body_;
     using Base::end_at_impact;
     using Base::end_where_negative;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -185,12 +186,18 @@ protected:
 
     /// Moves the end of a slide of `tau` s onto the moving obstacles, with their normal speeds.
     void stay_beside(const Support& support, const Vec& from, T tau, State& end) const {
+        std::array<TouchOf<T, Axes>, Axes> there;
         for (std::size_t i = 0; i < support.size(); ++i) {
             const Near& near = near_of(support, i);
-            end.x -= near.normal * gap_on_side(near, from, end.x, tau);
-            const Vec surface = surface_velocity(near.obstacle, near.normal, start_ + tau);
-            end.v -= near.normal * dot(near.normal, end.v - surface);
+            there[i] = near;
+            there[i].velocity = surface_velocity(near.obstacle, near.normal, start_ + tau);
         }
+        const Support then = support.with(there);
+        end = {then.onto(end.x, [&](const TouchOf<T, Axes>& touch) {
+                   const auto index = static_cast<std::size_t>(&touch - there.data());
+                   return gap_on_side(near_of(support, index), from, end.x, tau);
+               }),
+               then.following(end.v)};
     }
     /// One step of `tau` s on the curve of an obstacle: a push along its normal, of a size that
     /// lets a free step end on the curve, then the rest of the normal speed is taken away. This is
@@ -280,8 +287,6 @@ protected:
         return leg;
     }
 
-    bool settled_ = false;  ///< it stays in place until the forces change
-
     using Base::any_renewed_;
     using Base::body_;
     using Base::end_at_features;
@@ -300,6 +305,7 @@ protected:
     using Base::place;
     using Base::pressing;
     using Base::radius_;
+    using Base::settled_;
     using Base::speed_noise;
     using Base::stands;
     using Base::start_;

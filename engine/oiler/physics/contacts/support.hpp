@@ -116,21 +116,22 @@ public:
     /// change the motion towards each by needed(touch).
     template <class Needed>
     [[nodiscard]] Vector pushes(const Vector& along, Needed needed) const {
-        T fastest = largest(along);
-        for (std::size_t j = 0; j < count_; ++j)
-            fastest = std::max(fastest, largest(planes_[j]->velocity));
-        const T noise = 64 * std::numeric_limits<T>::epsilon() * fastest;
         auto with_friction = Matrix<T, Axes>::scalar(T(1));
         Vector wanted{};
         for (std::size_t j = 0; j < count_; ++j) {
-            const Vector slip = along - planes_[j]->velocity;
-            const Vector rubbed = largest(slip) <= noise ? Vector{} : normalised(slip);
-            const Vector push = planes_[j]->normal - rubbed * planes_[j]->friction;
+            const Vector push = push_with_friction(j, along);
             wanted.axis[j] = needed(*planes_[j]);
             for (std::size_t i = 0; i < count_; ++i)
                 with_friction.row[i].axis[j] = dot(planes_[i]->normal, push);
         }
         return solve(with_friction, wanted);
+    }
+    /// The acceleration by pushes of these sizes, with friction as above.
+    [[nodiscard]] Vector pushed(const Vector& along, const Vector& sizes) const {
+        Vector sum{};
+        for (std::size_t j = 0; j < count_; ++j)
+            sum += push_with_friction(j, along) * sizes.axis[j];
+        return sum;
     }
     /// The other touches.
     [[nodiscard]] Support without_touch(const Touch& touch) const {
@@ -189,6 +190,15 @@ public:
     }
 
 private:
+    [[nodiscard]] Vector push_with_friction(std::size_t j, const Vector& along) const {
+        T fastest = largest(along);
+        for (std::size_t i = 0; i < count_; ++i)
+            fastest = std::max(fastest, largest(planes_[i]->velocity));
+        const Vector slip = along - planes_[j]->velocity;
+        if (largest(slip) <= 64 * std::numeric_limits<T>::epsilon() * fastest)
+            return planes_[j]->normal;
+        return planes_[j]->normal - normalised(slip) * planes_[j]->friction;
+    }
     template <class Touches, class Chosen, class Excess>
     [[nodiscard]] static Support against(const Vector& push, const Touches& touches, Chosen chosen,
                                          Excess excess) {
