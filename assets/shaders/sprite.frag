@@ -6,29 +6,32 @@ uniform sampler2D image;  // top row first
 
 flat in vec4 box;
 flat in vec3 turn;
+flat in vec4 part;  // texels: a corner, and the way to the opposite one
 flat in vec4 tint;
 
 out vec4 colour;
 
 vec4 fetch(ivec2 at) {
-    vec4 texel = texelFetch(image, clamp(at, ivec2(0), textureSize(image, 0) - 1), 0);
+    ivec2 first = ivec2(min(part.xy, part.xy + part.zw));
+    ivec2 last = ivec2(max(part.xy, part.xy + part.zw)) - 1;
+    vec4 texel = texelFetch(image, clamp(at, first, last), 0);
     return vec4(texel.rgb * texel.a, texel.a);
 }
 
 vec4 bilinear(vec2 at) {
     ivec2 low = ivec2(floor(at - 0.5));
-    vec2 part = at - 0.5 - vec2(low);
-    return mix(mix(fetch(low), fetch(low + ivec2(1, 0)), part.x),
-               mix(fetch(low + ivec2(0, 1)), fetch(low + ivec2(1, 1)), part.x), part.y);
+    vec2 beyond = at - 0.5 - vec2(low);
+    return mix(mix(fetch(low), fetch(low + ivec2(1, 0)), beyond.x),
+               mix(fetch(low + ivec2(0, 1)), fetch(low + ivec2(1, 1)), beyond.x), beyond.y);
 }
 
 void main() {
     vec2 offset = gl_FragCoord.xy - box.xy;
     vec2 local = vec2(dot(offset, turn.xy), dot(offset, vec2(-turn.y, turn.x)));
     vec2 inside = clamp(box.zw - abs(local) + 0.5, 0.0, 1.0);
-    vec2 texels_per_pixel = vec2(textureSize(image, 0)) / (2.0 * box.zw);
-    vec2 at = (vec2(local.x, -local.y) + box.zw) * texels_per_pixel;
-    int taps = int(clamp(ceil(max(texels_per_pixel.x, texels_per_pixel.y)), 1.0, 16.0));
+    vec2 texels_per_pixel = part.zw / (2.0 * box.zw);
+    vec2 at = part.xy + (vec2(local.x, -local.y) + box.zw) * texels_per_pixel;
+    int taps = int(clamp(ceil(max(abs(texels_per_pixel.x), abs(texels_per_pixel.y))), 1.0, 16.0));
     vec4 sum = vec4(0.0);
     for (int j = 0; j < taps; ++j) {
         for (int i = 0; i < taps; ++i) {

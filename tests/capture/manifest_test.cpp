@@ -203,6 +203,11 @@ std::vector<Point> points(int count) {
 
 int layer() { return static_cast<int>(bits() % 5) - 2; }
 
+std::optional<BitmapPart> part() {
+    if (bits() % 2 == 0) return {};
+    return BitmapPart{layer(), layer(), {layer(), layer()}};
+}
+
 /// Adds what plain pictures do not have.
 void add_rich(Picture& picture) {
     picture.has_bars = bits() % 2 == 0;
@@ -216,7 +221,8 @@ void add_rich(Picture& picture) {
                                    .colour = colour(),
                                    .space = space(),
                                    .layer = layer(),
-                                   .is_smooth = bits() % 2 == 0});
+                                   .is_smooth = bits() % 2 == 0,
+                                   .part = part()});
         picture.polygons.push_back(
             {key(), points(i), colour(), single(), colour(), space(), layer()});
         picture.polylines[0].layer = layer();

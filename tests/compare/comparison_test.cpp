@@ -179,6 +179,9 @@ TEST(PictureChanges, NameSpritesPolygonsLayersAndBars) {
     EXPECT_TRUE(words([](Picture& p) {
                     p.sprites[0].bitmap = make_bitmap({1, 1}, {9, 2, 3, 4});
                 }).starts_with("1 sprite: text '"));
+    EXPECT_TRUE(words([](Picture& p) {
+                    p.sprites[0].part = BitmapPart{0, 0, {1, 1}};
+                }).ends_with(" 1x1 at (0, 0)'"));
     EXPECT_EQ(words([](Picture& p) { p.polygons[0].outline = 2; }), "1 polygon: outline 0 → 2");
     EXPECT_EQ(words([](Picture& p) { p.polygons[0].points.pop_back(); }),
               "1 polygon: 3 → 2 points");

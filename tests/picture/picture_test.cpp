@@ -113,6 +113,30 @@ TEST(Between, TurnsSpritesTheShorterWay) {
     EXPECT_EQ(moved.colour, (Colour{205, 255, 255, 255}));
 }
 
+TEST(Between, MirrorsSpritesAtOnce) {
+    Picture before;
+    before.sprites = {{.key = {1}, .size = {2, 4}}};
+    Picture after = before;
+    after.sprites[0].size = {-4, 4};
+    EXPECT_EQ(between(before, after, 0.5F).sprites[0].size, (Point{3, 4}));
+    EXPECT_EQ(between(after, before, 0.5F).sprites[0].size, (Point{-3, 4}));
+}
+
+TEST(Pictures, RefuseAPartBesideItsBitmap) {
+    const auto line = [](const BitmapPart& part) {
+        Picture picture;
+        picture.sprites = {
+            {.bitmap = make_bitmap({2, 1}, {0, 0, 0, 255, 0, 0, 0, 255}), .part = part}};
+        return line_of_error(Exit::usage, [&] { require_drawable(picture); });
+    };
+    EXPECT_EQ(line({1, 0, {2, 1}}),
+              "a sprite's part of 2x1 texels at (1, 0): give one within its bitmap of 2x1");
+    for (const BitmapPart& part :
+         {BitmapPart{-1, 0, {1, 1}}, BitmapPart{0, 1, {1, 1}}, BitmapPart{0, 0, {0, 1}},
+          BitmapPart{2147483647, 0, {2147483647, 1}}})
+        EXPECT_NE(line(part), "") << part.left;
+}
+
 TEST(Between, MovesPolygonsPointByPoint) {
     Picture before;
     before.polygons = {{.key = {1}, .points = {{0, 0}, {4, 0}, {0, 4}}, .outline = 1}};

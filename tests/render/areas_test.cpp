@@ -178,6 +178,31 @@ TEST_F(Drawing, ASpriteShowsItsTexelsTheRightWayUp) {
     EXPECT_EQ(red(pixels, 100, 101), 255);
 }
 
+TEST_F(Drawing, ASpriteOfNegativeSizeIsMirrored) {
+    Picture picture = of_sprite({.centre = {100, 100}, .size = {-20, 20}, .is_smooth = false});
+    Pixels pixels = draw(picture);
+    EXPECT_EQ(red(pixels, 108, 108), 0) << "the top left texel is at the top right";
+    EXPECT_EQ(red(pixels, 92, 108), 255);
+    EXPECT_EQ(red(pixels, 108, 92), 128);
+    picture.sprites[0].size = {20, -20};
+    pixels = draw(picture);
+    EXPECT_EQ(red(pixels, 92, 92), 0) << "the top left texel is at the lower left";
+    EXPECT_EQ(red(pixels, 92, 108), 128);
+}
+
+// Smooth or not, the texels beside the part do not shine through its border.
+TEST_F(Drawing, ASpriteShowsAPartOfItsBitmap) {
+    for (const bool is_smooth : {false, true})
+        for (const float mirror : {1.0F, -1.0F}) {
+            const Pixels pixels = draw(of_sprite({.centre = {100, 100},
+                                                  .size = {20 * mirror, 20},
+                                                  .is_smooth = is_smooth,
+                                                  .part = BitmapPart{0, 1, {1, 1}}}));
+            for (const int x : {91, 100, 108})
+                for (const int y : {91, 100, 108}) EXPECT_EQ(red(pixels, x, y), 128) << x;
+        }
+}
+
 TEST_F(Drawing, ASpriteTurnsCounterClockwise) {
     const Pixels pixels = draw(of_sprite({.centre = {100, 100},
                                           .size = {20, 20},

@@ -53,6 +53,11 @@ Json json_of(const Sprite& sprite) {
     json["angle"] = sprite.angle;
     json["smooth"] = sprite.is_smooth;
     json["bitmap"] = sprite.bitmap ? sprite.bitmap->hash : 0;
+    if (const auto& part = sprite.part) {
+        json["part"] = Json::array();
+        for (const int texels : {part->left, part->top, part->size.width, part->size.height})
+            json["part"].push_back(texels);
+    }
     return json;
 }
 
@@ -155,6 +160,10 @@ Sprite to_sprite(const Parsed& json) {
     sprite.is_smooth = json.at("smooth");
     sprite.bitmap =
         std::make_shared<const Bitmap>(Bitmap{.size = {}, .rgba = {}, .hash = json.at("bitmap")});
+    if (json.contains("part")) {
+        const Parsed& part = json.at("part");
+        sprite.part = BitmapPart{part.at(0), part.at(1), {part.at(2), part.at(3)}};
+    }
     return sprite;
 }
 

@@ -50,9 +50,14 @@ float mix_angles(float from, float to, float alpha) {
     return from + alpha * std::remainder(to - from, turn);
 }
 
+/// A mirrored image turns at once, not through a size of 0.
+Point mix_sizes(Point from, Point to, float alpha) {
+    return mix(from, {std::copysign(to.x, from.x), std::copysign(to.y, from.y)}, alpha);
+}
+
 void move(Sprite& sprite, const Sprite& after, float alpha) {
     sprite.centre = mix(sprite.centre, after.centre, alpha);
-    sprite.size = mix(sprite.size, after.size, alpha);
+    sprite.size = mix_sizes(sprite.size, after.size, alpha);
     sprite.angle = mix_angles(sprite.angle, after.angle, alpha);
     sprite.colour = mix(sprite.colour, after.colour, alpha);
 }
@@ -151,6 +156,8 @@ void add(StateHash& hash, const Sprite& sprite) {
     add_words(hash, bits(sprite.centre.x), bits(sprite.centre.y), bits(sprite.size.x),
               bits(sprite.size.y), bits(sprite.angle), bits(sprite.colour), sprite.is_smooth);
     hash.add(sprite.bitmap ? sprite.bitmap->hash : 0);
+    if (const auto& part = sprite.part)
+        add_words(hash, part->left, part->top, part->size.width, part->size.height);
 }
 
 void add(StateHash& hash, const Polygon& polygon) {
@@ -183,6 +190,18 @@ template <class Element>
 void add_all(StateHash& hash, const std::vector<Element>& elements) {
     hash.add(std::uint64_t{elements.size()});
     for (const Element& element : elements) add(hash, element);
+}
+
+void require_part(const Sprite& sprite) {
+    if (!sprite.part || !sprite.bitmap) return;
+    const auto& [left, top, size] = *sprite.part;
+    const Size whole = sprite.bitmap->size;
+    const bool fits = left >= 0 && top >= 0 && size.width > 0 && size.height > 0 &&
+                      size.width <= whole.width - left && size.height <= whole.height - top;
+    if (!fits)
+        fail(Exit::usage,
+             "a sprite's part of {}x{} texels at ({}, {}): give one within its bitmap of {}x{}",
+             size.width, size.height, left, top, whole.width, whole.height);
 }
 
 }  // namespace
@@ -245,8 +264,10 @@ void require_drawable(const Picture& picture) {
         if (std::isnan(at.x + at.y + size))
             fail(Exit::usage, "{} of size {} at ({}, {}): give numbers", what, size, at.x, at.y);
     };
-    for (const Sprite& sprite : picture.sprites)
+    for (const Sprite& sprite : picture.sprites) {
         refuse_nan(sprite.centre, sprite.size.x + sprite.size.y + sprite.angle, "a sprite");
+        require_part(sprite);
+    }
     for (const Disc& disc : picture.discs) {
         refuse_nan(disc.centre, disc.radius, "a disc");
         refuse_negative(disc.radius, "a disc with a radius");

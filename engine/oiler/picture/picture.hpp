@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,17 +52,27 @@ struct ElementKey {
     friend bool operator==(const ElementKey&, const ElementKey&) = default;
 };
 
+/// A part of a bitmap, in texels from its upper left corner.
+struct BitmapPart {
+    int left = 0;
+    int top = 0;
+    Size size;
+    friend bool operator==(const BitmapPart&, const BitmapPart&) = default;
+};
+
 /// An image.
 struct Sprite {
     ElementKey key{};
     Point centre{};
-    Point size{1, 1};  ///< width and height in the element's space
+    /// Width and height in the element's space; a negative one mirrors the image.
+    Point size{1, 1};
     std::shared_ptr<const Bitmap> bitmap{};
     float angle = 0;                    ///< rad, counter-clockwise
     Colour colour{255, 255, 255, 255};  ///< a tint: the bitmap's colours are multiplied by it
     Space space = Space::world;
     int layer = 0;
     bool is_smooth = true;  ///< false: magnified texels have sharp edges, as in pixel art
+    std::optional<BitmapPart> part{};  ///< the whole bitmap if absent
 };
 
 /// A filled area whose outline does not cross itself.

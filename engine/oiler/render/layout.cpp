@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "oiler/render/mesh.hpp"
 
@@ -76,18 +77,29 @@ void snap(const Polyline& line, float width, std::vector<Point>& points) {
     }
 }
 
+/// The first texel of a row or column of a sprite, and their number, negative if it is mirrored.
+std::pair<float, float> texels(int first, int count, bool is_mirrored) {
+    const auto from = static_cast<float>(is_mirrored ? first + count : first);
+    return {from, static_cast<float>(is_mirrored ? -count : count)};
+}
+
 void lay_out_sprite(const Sprite& sprite, const Mapping& mapping, Size frame, Layout& layout) {
     const Point centre = mapping.pixel(sprite.centre, sprite.space);
-    const Point half{mapping.pixels(sprite.size.x, sprite.space) / 2,
-                     mapping.pixels(sprite.size.y, sprite.space) / 2};
+    const Point half{mapping.pixels(std::abs(sprite.size.x), sprite.space) / 2,
+                     mapping.pixels(std::abs(sprite.size.y), sprite.space) / 2};
     const float reach = std::hypot(half.x, half.y);
     const bool is_drawable = sprite.bitmap && half.x > 0 && half.y > 0 && std::isfinite(reach) &&
                              std::isfinite(sprite.angle);
     if (!is_drawable || !is_near(centre, frame, reach + 1)) return;
+    const BitmapPart part = sprite.part.value_or(BitmapPart{0, 0, sprite.bitmap->size});
+    const auto [x, width] = texels(part.left, part.size.width, sprite.size.x < 0);
+    const auto [y, height] = texels(part.top, part.size.height, sprite.size.y < 0);
     layout.sprites.push_back({centre,
                               half,
                               {std::cos(sprite.angle), std::sin(sprite.angle)},
                               sprite.is_smooth ? 1.0F : 0.0F,
+                              {x, y},
+                              {width, height},
                               sprite.colour});
     layout.bitmaps.push_back(sprite.bitmap.get());
 }

@@ -24,6 +24,8 @@ struct PlacedSprite {
     Point half_size;  ///< pixels
     Point direction;  ///< cosine and sine of its angle
     float smooth;     ///< 0 or 1
+    Point start;      ///< texels, of the corner that is drawn at the upper left
+    Point extent;     ///< texels from there, negative where the image is mirrored
     Colour tint;
 };
 

@@ -101,6 +101,7 @@ struct Renderer::Impl {
                    1,
                    {{4, GL_FLOAT, offsetof(PlacedSprite, centre)},
                     {3, GL_FLOAT, offsetof(PlacedSprite, direction)},
+                    {4, GL_FLOAT, offsetof(PlacedSprite, start)},
                     {4, GL_UNSIGNED_BYTE, offsetof(PlacedSprite, tint)}}}),
           lines(gl, embedded::line_vert(), embedded::line_frag(),
                 {sizeof(LineVertex),

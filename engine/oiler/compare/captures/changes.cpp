@@ -155,6 +155,9 @@ Element element_of(const Shape& shape, std::vector<Point> points, float extent) 
 Element element_of(const Sprite& sprite) {
     Element element = element_of(sprite, {sprite.centre, sprite.size}, sprite.angle);
     element.text = hash_text(sprite.bitmap ? sprite.bitmap->hash : 0);
+    if (const auto& part = sprite.part)
+        element.text += fmt::format(" {}x{} at ({}, {})", part->size.width, part->size.height,
+                                    part->left, part->top);
     element.placing += sprite.is_smooth ? 1 : 0;
     return element;
 }
