@@ -427,7 +427,7 @@ private:
         if (is_pinned(support)) {
             if (const auto leg = stay_locked(state, support)) return advance(state, *leg);
             if (const auto leg = ride_between(state, support)) return advance(state, *leg);
-            if (const auto* const loose = loosening(state, support, left_ / 1024))
+            if (const auto* const loose = loosening(state, support))
                 return stay_on(state, support.without_touch(*loose));
         }
         const Vec a = pressing(support, state);

@@ -61,41 +61,44 @@ protected:
         return leg.tau > epsilon * left_ ? std::optional(leg) : std::nullopt;
     }
 
-    /// The touch that a pinned body leaves `soon`, s from now, because the others push it off that
-    /// one; null if it leaves none.
-    [[nodiscard]] const TouchOf<T, Axes>* loosening(const State& state, const Support& support,
-                                                    T soon) const {
-        const State at = between(state, support, soon);
-        const Vec push = pushes(support, at, soon);
-        const auto least = std::min_element(push.axis.begin(), push.axis.end());
-        if (*least >= 0) return nullptr;
-        const Touches there = touches_of(support, at, soon);
-        const Vec a = body_.accelerate(at, start_ + soon);
-        const auto needed = [&](const TouchOf<T, Axes>& touch) {
-            return -OfPull<T, Axes>{}(touch, a);
-        };
-        for (std::size_t i = 0; i < Axes; ++i) {
-            const Support others = support.with(there).without_touch(there[i]);
-            const Vec by = others.pushes(at.v, needed);
-            const bool bears = *std::min_element(by.axis.begin(), by.axis.end()) >= 0;
-            if (bears && dot(there[i].normal, others.pushed(at.v, by)) >= needed(there[i]))
-                return &support[i];
-        }
-        return moves(support) ? &support[static_cast<std::size_t>(least - push.axis.begin())]
-                              : nullptr;
+    /// Which touches bear a pinned body `tau` s from now; null if it is locked: no pushes with
+    /// friction do.
+    [[nodiscard]] std::optional<std::array<bool, Axes>> bearers(const Support& support,
+                                                                const State& at, T tau) const {
+        const Touches there = touches_of(support, at, tau);
+        const Vec a = body_.accelerate(at, start_ + tau);
+        const auto found = support.with(there).bearing(
+            at.v, [&](const TouchOf<T, Axes>& touch) { return -OfPull<T, Axes>{}(touch, a); });
+        if (!found) return std::nullopt;
+        std::array<bool, Axes> bear;
+        for (std::size_t i = 0; i < Axes; ++i) bear[i] = found->has(there[i]);
+        return bear;
     }
-    /// Holds a body that the belts of standing obstacles draw in so much that no pushes with
-    /// friction bear it: wherever it went, it would go into one of them.
+    /// A touch that a pinned body leaves now; null if there is none.
+    [[nodiscard]] const TouchOf<T, Axes>* loosening(const State& state,
+                                                    const Support& support) const {
+        const T soon = left_ / 1024;
+        const auto bear = bearers(support, between(state, support, soon), soon);
+        if (!bear) return nullptr;
+        const auto loose = std::find(bear->begin(), bear->end(), false);
+        return loose == bear->end() ? nullptr
+                                    : &support[static_cast<std::size_t>(loose - bear->begin())];
+    }
+    /// Holds a body between obstacles that draw it in so much that no pushes with friction bear it:
+    /// wherever else it went, it would go into one of them.
     [[nodiscard]] std::optional<Leg> stay_locked(const State& state, const Support& support) {
         const auto is_locked = [&](const State& at, T tau) {
-            return least_push(support, at, tau) < 0 && !loosening(at, support, tau);
+            return touches_all(support, at, tau) && !bearers(support, at, tau);
         };
-        if (moves(support) || enters_other(state, support) || !is_locked(state, T(0)))
-            return std::nullopt;
-        const auto move = [&](T) { return State{state.x, {}}; };
+        if (enters_other(state, support) || !is_locked(state, T(0))) return std::nullopt;
+        const bool stays = !moves(support);
+        const auto move = [&](T tau) {
+            return stays ? State{state.x, {}} : between(state, support, tau);
+        };
         Leg leg{move(left_), left_};
         end_at_others(state, support, body_.accelerate(state, start_), leg, move);
-        if (!body_.forces_change()) {
+        if (!stays) end_at_features(state, support, leg, move);
+        if (stays && !body_.forces_change()) {
             settled_ = leg.tau == left_;
             return leg;
         }

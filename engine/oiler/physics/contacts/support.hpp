@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -92,6 +94,8 @@ public:
         return against(v, touches, chosen, OfVelocity<T, Axes>{});
     }
 
+    /// Adds a touch; there must be less than one per axis.
+    void add(const Touch& touch) { planes_[count_++] = &touch; }
     [[nodiscard]] bool empty() const { return count_ == 0; }
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] const Touch& operator[](std::size_t i) const { return *planes_[i]; }
@@ -126,12 +130,19 @@ public:
         }
         return solve(with_friction, wanted);
     }
-    /// The acceleration by pushes of these sizes, with friction as above.
-    [[nodiscard]] Vector pushed(const Vector& along, const Vector& sizes) const {
-        Vector sum{};
-        for (std::size_t j = 0; j < count_; ++j)
-            sum += push_with_friction(j, along) * sizes.axis[j];
-        return sum;
+    /// Those of the touches that bear a body with a velocity `along` them: their pushes with friction
+    /// are positive, and drive it off the others. Null if no pushes do.
+    template <class Needed>
+    [[nodiscard]] std::optional<Support> bearing(const Vector& along, Needed needed) const {
+        const unsigned all = (1U << count_) - 1;
+        for (unsigned i = 0; i <= all; ++i) {
+            const unsigned chosen = i == 0 ? 0 : all + 1 - i;
+            Support some;
+            for (std::size_t j = 0; j < count_; ++j)
+                if ((chosen >> j & 1U) != 0) some.add(*planes_[j]);
+            if (some.bears_among(*this, along, needed)) return some;
+        }
+        return std::nullopt;
     }
     /// The other touches.
     [[nodiscard]] Support without_touch(const Touch& touch) const {
@@ -198,6 +209,20 @@ private:
         if (largest(slip) <= 64 * std::numeric_limits<T>::epsilon() * fastest)
             return planes_[j]->normal;
         return planes_[j]->normal - normalised(slip) * planes_[j]->friction;
+    }
+    template <class Needed>
+    [[nodiscard]] bool bears_among(const Support& touches, const Vector& along,
+                                   Needed needed) const {
+        const Vector push = pushes(along, needed);
+        Vector sum{};
+        for (std::size_t j = 0; j < count_; ++j) {
+            if (!(push.axis[j] > 0)) return false;
+            sum += push_with_friction(j, along) * push.axis[j];
+        }
+        const auto* const end = touches.planes_.data() + touches.count_;
+        return std::all_of(touches.planes_.data(), end, [&](const Touch* touch) {
+            return has(*touch) || dot(touch->normal, sum) >= needed(*touch);
+        });
     }
     template <class Touches, class Chosen, class Excess>
     [[nodiscard]] static Support against(const Vector& push, const Touches& touches, Chosen chosen,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "oiler/physics/contacts/near.hpp"
@@ -123,6 +124,7 @@ protected:
                 near.bears |= near.leaves && is_hidden_flight(near, state, pulled);
         }
         for (Near& near : nears_) near.bears = (near.bears && &near != without) || &near == with;
+        if (const auto slipped = bearing_slips(state, a)) return *slipped;
         const auto support = Support::against(a, nears_, bears);
         const Vec dragged = drag(state, a);
         if (dragged == Vec{}) return support;
@@ -131,6 +133,23 @@ protected:
             return !near.bears || !rubs(near, state, a) || pressed.has(near);
         });
         return drags_on || pressed.size() > support.size() ? pressed : support;
+    }
+    /// Which of several obstacles bear a body that slips along all of them: it is locked between all
+    /// if no pushes with friction do. Null if there are not several, or too many.
+    [[nodiscard]] std::optional<Support> bearing_slips(const State& state, const Vec& a) const {
+        if (!any_moved_) return std::nullopt;
+        Support all;
+        for (const Near& near : nears_) {
+            if (!near.bears) continue;
+            const bool slips = largest(state.v - near.velocity) > speed_noise(state);
+            if (all.size() == Axes || !slips) return std::nullopt;
+            all.add(near);
+        }
+        if (all.size() < 2) return std::nullopt;
+        const auto needed = [&](const TouchOf<T, Axes>& touch) {
+            return -OfPull<T, Axes>{}(touch, a);
+        };
+        return all.bearing(state.v, needed).value_or(all);
     }
     /// Whether friction acts on the body where it slips along an obstacle that bears it.
     [[nodiscard]] bool rubs(const Near& near, const State& state, const Vec& a) const {
