@@ -179,7 +179,7 @@ TEST(SampledMotion, KeepsApartWhatAKinkParts) {
     EXPECT_EQ(motion.cubic_error(1, {}, {}, kink, 1), 0);
     // Leaving a sample out shows no kink.
     EXPECT_LE(
-        interpolation_errors({1, one_row(trajectory, 1), {trajectory.kinks[1]}}, per_second).back(),
+        interpolation_errors({1, one_row(trajectory, 1), {trajectory.kinks[1]}}, per_second, false).back(),
         1e-15);
 }
 
@@ -223,15 +223,38 @@ TEST(InterpolationErrors, BoundTheErrorsBetweenSamples) {
         for (Real t = 0; t < 4; t += 0.0037L)
             most = std::max(
                 most, static_cast<double>(std::abs(motion.at(0, t).x[1] - std::cos(omega * t))));
-        const double told = interpolation_errors(trajectory, per_second).back();
+        const double told = interpolation_errors(trajectory, per_second, false).back();
         EXPECT_GE(told, most) << omega;
         EXPECT_LE(told, 4 * most) << omega;
     }
 }
 
+// A body of 1 m/s that friction of 2 m/s² stops somewhere among the samples, also near the ends.
+TEST(InterpolationErrors, BoundThoseBesideAStop) {
+    constexpr std::int64_t samples = 30;
+    const auto spacing = 1 / Real(per_second);
+    for (Real start = -0.5L; start < 2.5L; start += 0.0137L) {
+        const auto state = [&](Real t) {
+            const Real slid = std::clamp(t - start, Real(0), Real(0.5L));
+            return State3{{std::min(t - start, Real(0)) + slid - slid * slid, 0, 0},
+                          {1 - 2 * slid, 0, 0}};
+        };
+        Trajectory trajectory{.bodies = 1};
+        for (std::int64_t i = 0; i < samples; ++i)
+            trajectory.states.push_back(state(Real(i) * spacing));
+        const SampledMotion motion(trajectory, per_second, 0);
+        double most = 0;
+        for (Real t = 0; t < Real(samples - 1) * spacing; t += 0.0037L)
+            most = std::max(
+                most, static_cast<double>(std::abs(motion.at(0, t).x[0] - state(t).x[0])));
+        EXPECT_GE(interpolation_errors(trajectory, per_second, true).back(), most)
+            << static_cast<double>(start);
+    }
+}
+
 // Two samples per period resolve nothing; the estimate must be of the size of the oscillation.
 TEST(InterpolationErrors, AreLargeIfNothingIsResolved) {
-    EXPECT_GT(interpolation_errors(sampled(33, 4), per_second).back(), 0.5);
+    EXPECT_GT(interpolation_errors(sampled(33, 4), per_second, false).back(), 0.5);
 }
 
 // Straight lines, a second each. The body dips into the band but not below it after its first

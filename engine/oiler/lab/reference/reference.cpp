@@ -129,13 +129,13 @@ private:
         FineSteps fine = fine_steps(scene_, reference_.start, reference_.samples, effort_);
         require_finite(fine);
         std::vector<double> between =
-            interpolation_errors(fine.trajectory, reference_.samples.per_second);
+            interpolation_errors(fine.trajectory, reference_.samples.per_second, jumps());
         if (const auto samples = finer_samples(fine, between)) {
             FineSteps again = fine_steps(scene_, reference_.start, *samples, effort_);
             if (again.sufficient) {
                 fine = std::move(again);
                 reference_.samples = *samples;
-                between = interpolation_errors(fine.trajectory, samples->per_second);
+                between = interpolation_errors(fine.trajectory, samples->per_second, jumps());
             }
         }
         if (effort_.stopped()) return;
@@ -152,15 +152,16 @@ private:
             std::move(fine.trajectory), reference_.samples.per_second, fastest_motion(start_));
     }
 
+    /// Whether accelerations may jump within an interval, where a body stops, slips or leaves a face.
+    [[nodiscard]] bool jumps() const { return scene_.has_obstacles(); }
     /// Samples by which the error between them falls below the wanted error, if that is within
     /// reach and the steps themselves meet it.
     [[nodiscard]] std::optional<SampleTimes> finer_samples(
         const FineSteps& fine, const std::vector<double>& between) const {
         // Of polynomials of degree 7; less where a linked body lands and changes the forces on
-        // others, or a body stops, slips or leaves a face within an interval.
-        const bool jumps = scene_.has_obstacles();
-        const double order = fine.first_order || jumps ? 2 : 8;
-        const double most_times = jumps && !fine.first_order ? 16 : 8;
+        // others.
+        const double order = fine.first_order || jumps() ? 2 : 8;
+        const double most_times = jumps() ? 32 : 8;
         const double own = fine.sufficient_error;
         const double wanted = fine.first_order ? own / 2 : own;
         const bool may_refine = effort_.wanted > 0 || fine.first_order;

@@ -150,36 +150,41 @@ State3 state_in(const Window& window, const Hermite& smooth, const Trajectory& t
     return Hermite(nodes.places(), window.place, window.spacing)(nodes);
 }
 
-/// The largest distance of a sample from the interpolation through the samples 1 and 3 `spacing`s
-/// before and after it; 0 near the ends and kinks.
-double left_out(const Trajectory& trajectory, std::int64_t per_second, const Hermite& middle,
-                std::int64_t sample, std::int64_t spacing) {
-    const std::int64_t first = sample - 3 * spacing;
-    const std::int64_t last = sample + 3 * spacing;
+/// The largest distance of a sample from the polynomial through four samples from `first` on, every
+/// `spacing`-th one; 0 if they are not all there, or near kinks.
+double left_out(const Trajectory& trajectory, std::int64_t per_second, const Hermite& polynomial,
+                std::int64_t sample, std::int64_t first, std::int64_t spacing) {
+    const std::int64_t last = first + 3 * spacing;
     if (first < 0 || last >= trajectory.samples()) return 0;
     const auto time = [&](std::int64_t of) {
         return static_cast<Real>(of) / static_cast<Real>(per_second);
     };
+    const Real from = time(std::min(first, sample));
+    const Real until = time(std::max(last, sample));
     double most = 0;
     for (std::size_t row = 0; row < trajectory.bodies; ++row) {
-        if (!trajectory.kinks_between(row, time(first), time(last)).empty()) continue;
-        const State3 between = middle([&](std::size_t i) -> const State3& {
-            return trajectory.at(first + 2 * spacing * static_cast<std::int64_t>(i), row);
+        if (!trajectory.kinks_between(row, from, until).empty()) continue;
+        const State3 there = polynomial([&](std::size_t i) -> const State3& {
+            return trajectory.at(first + spacing * static_cast<std::int64_t>(i), row);
         });
-        const auto& exact = trajectory.at(sample, row);
-        most = std::max(most, static_cast<double>(std::sqrt(squared_length(between.x - exact.x))));
+        const Real3 off = there.x - trajectory.at(sample, row).x;
+        most = std::max(most, static_cast<double>(std::sqrt(squared_length(off))));
     }
     return most;
 }
 
-/// The factor of the error from the wide to the narrow spacing at the first sample that has both; 1
-/// if none has.
-double first_convergence(const Trajectory& trajectory, std::int64_t per_second,
-                         const Hermite& narrow, const Hermite& wide) {
-    for (std::int64_t sample = 6; sample + 6 < trajectory.samples(); ++sample)
-        if (const double far = left_out(trajectory, per_second, wide, sample, 2); far > 0)
-            return std::min(1.0, left_out(trajectory, per_second, narrow, sample, 1) / far);
-    return 1;
+/// The largest distance of one of the three first or last samples from the polynomial through the
+/// four samples beside it.
+double left_out_at_end(const Trajectory& trajectory, std::int64_t per_second, bool at_start) {
+    const Hermite polynomial(equally_spaced, at_start ? -1.0L : 4.0L,
+                             1 / static_cast<Real>(per_second));
+    double most = 0;
+    for (std::int64_t i = 0; i < std::min<std::int64_t>(3, trajectory.samples()); ++i) {
+        const std::int64_t sample = at_start ? i : trajectory.samples() - 1 - i;
+        const std::int64_t first = at_start ? sample + 1 : sample - 4;
+        most = std::max(most, left_out(trajectory, per_second, polynomial, sample, first, 1));
+    }
+    return most;
 }
 
 double fastest_of(const Trajectory& trajectory) {
@@ -242,25 +247,41 @@ double SampledMotion::cubic_error(std::size_t row, const State3&, const State3&,
     return to - from <= longest_cubic_ ? 0 : std::numeric_limits<double>::infinity();
 }
 
-std::vector<double> interpolation_errors(const Trajectory& trajectory, std::int64_t per_second) {
+std::vector<double> interpolation_errors(const Trajectory& trajectory, std::int64_t per_second,
+                                         bool may_jump) {
     // The first and the last interval have all nodes on one side.
     constexpr double at_ends = 3;
-    const auto middle_of = [&](Real spacing) {
-        return Hermite(equally_spaced, 1.5L, 2 * spacing / static_cast<Real>(per_second));
+    const auto left_out_everywhere = [&](std::int64_t spacing) {
+        const Hermite middle(equally_spaced, 1.5L,
+                             2 * static_cast<Real>(spacing) / static_cast<Real>(per_second));
+        std::vector<double> errors;
+        for (std::int64_t sample = 0; sample < trajectory.samples(); ++sample)
+            errors.push_back(left_out(trajectory, per_second, middle, sample,
+                                      sample - 3 * spacing, 2 * spacing));
+        return errors;
     };
-    const Hermite narrow = middle_of(1);
-    const Hermite wide = middle_of(2);
-    std::vector<double> errors;
-    double most = 0;
+    const std::vector<double> at_twice = left_out_everywhere(1);
+    const std::vector<double> at_four_times = left_out_everywhere(2);
     // Near the ends, the wide interpolation has no samples: the nearest convergence is used.
-    double falls = first_convergence(trajectory, per_second, narrow, wide);
-    for (std::int64_t sample = 0; sample < trajectory.samples(); ++sample) {
-        const double at_twice = left_out(trajectory, per_second, narrow, sample, 1);
-        const double at_four_times = left_out(trajectory, per_second, wide, sample, 2);
-        if (at_four_times > 0) falls = std::min(1.0, at_twice / at_four_times);
-        most = std::max(most, at_ends * at_twice * falls);
+    const auto falls_at = [&](std::size_t sample) {
+        return std::min(1.0, at_twice[sample] / at_four_times[sample]);
+    };
+    const auto is_known = [](double wide) { return wide > 0; };
+    const auto first = std::ranges::find_if(at_four_times, is_known);
+    double falls = first == at_four_times.end()
+                       ? 1
+                       : falls_at(static_cast<std::size_t>(first - at_four_times.begin()));
+    std::vector<double> errors;
+    double most = may_jump ? left_out_at_end(trajectory, per_second, true) : 0;
+    for (std::size_t sample = 0; sample < at_twice.size(); ++sample) {
+        if (is_known(at_four_times[sample])) falls = falls_at(sample);
+        most = std::max(most, at_ends * at_twice[sample] * falls);
         errors.push_back(most);
     }
+    if (!may_jump) return errors;
+    const double at_end = left_out_at_end(trajectory, per_second, false);
+    for (auto last = errors.rbegin(); last != errors.rend() && last - errors.rbegin() < 4; ++last)
+        *last = std::max(*last, at_end);
     return errors;
 }
 

@@ -60,8 +60,10 @@ private:
 
 /// The estimated largest error of a SampledMotion between its samples, m, up to each sample. It
 /// compares samples with interpolations that leave them out, at two spacings, and extrapolates to
-/// the spacing of all samples. Samples near kinks are left out.
+/// the spacing of all samples. Samples near kinks are left out. `may_jump` tells whether
+/// accelerations may jump, where a body stops or slips; at the ends, such a jump is as large as an
+/// extrapolation finds it.
 [[nodiscard]] std::vector<double> interpolation_errors(const Trajectory& trajectory,
-                                                       std::int64_t per_second);
+                                                       std::int64_t per_second, bool may_jump);
 
 }  // namespace oiler::lab
