@@ -111,8 +111,12 @@ std::vector<Change> own_changes() {
         [](Picture& p) { nudge(p.sprites[1].angle); },
         [](Picture& p) { p.sprites[1].is_smooth = false; },
         [](Picture& p) { p.sprites[1].bitmap = bitmap(2); },
-        [](Picture& p) { p.sprites[1].part = BitmapPart{0, 0, {1, 1}}; },
-        [](Picture& p) { p.sprites[1].part = BitmapPart{0, 0, {1, 2}}; },
+        [](Picture& p) {
+            p.sprites[1].part = BitmapPart{0, 0, {1, 1}};
+        },
+        [](Picture& p) {
+            p.sprites[1].part = BitmapPart{0, 0, {1, 2}};
+        },
         [](Picture& p) { p.sprites[1].bitmap.reset(); },
         [](Picture& p) { nudge(p.polygons[1].points[2].y); },
         [](Picture& p) { p.polygons[1].points.pop_back(); },

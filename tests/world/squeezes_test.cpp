@@ -273,9 +273,8 @@ TEST(Squeezes, RollersThatDrawABallInHoldIt) {
                 const Entity ball = world.spawn(
                     {.position = {0.05, 1}, .velocity = {0.3, 0}, .contact = Contact{0.25}});
                 if (on_rope)
-                    world.link_to_point(
-                        ball, {0, 9},
-                        {.stiffness = 20, .rest_length = 60, .pulls_only = true});
+                    world.link_to_point(ball, {0, 9},
+                                        {.stiffness = 20, .rest_length = 60, .pulls_only = true});
                 world.step(60);
                 const double y = std::sqrt(0.65 * 0.65 - 0.5 * 0.5);
                 EXPECT_NEAR(world.position(ball)[0], 0, 1e-12) << friction;
@@ -283,6 +282,87 @@ TEST(Squeezes, RollersThatDrawABallInHoldIt) {
                 EXPECT_LE(std::hypot(world.velocity(ball)[0], world.velocity(ball)[1]), 1e-12);
                 EXPECT_TRUE(impacts(world, 30).empty()) << method << ' ' << friction;
             }
+}
+
+/// A ball of 0.25 m in the crease of two half-spaces with belts.
+struct BeltCrease {
+    struct Belt {
+        Vec3 normal;
+        double friction;
+        double speed;
+    };
+    BeltCrease(const char* method, int rate, const Vec3& gravity, const Belt& one, const Belt& two)
+        : world(world_of(method, rate, 2, gravity)) {
+        for (const Belt& belt : {one, two})
+            obstacles.push_back(
+                world.add_obstacle({.shape = HalfSpaceShape{normalised(belt.normal), -0.25},
+                                    .friction = belt.friction,
+                                    .belt = belt.speed}));
+        ball = world.spawn({.contact = Contact{0.25}});
+    }
+    World world;
+    std::vector<ObstacleHandle> obstacles{};
+    Entity ball{};
+};
+
+// A wall that leans over a floor: gravity presses the ball onto the floor only, and the belt of the
+// floor onto the wall. Both pushes are positive: 42 and 24 N.
+TEST(Squeezes, ABeltHoldsABallUnderAWallThatLeansOverIt) {
+    for (const char* method : {"velocity_verlet", "implicit_midpoint", "rk4"})
+        for (const int rate : {30, 144}) {
+            BeltCrease crease(method, rate, {0, -30}, {{-0.6363203, 0.7714249}, 2.3934715, -0.37},
+                              {{-0.0912366, 0.9958292}, 1.5037247, 1.73});
+            EXPECT_TRUE(impacts(crease.world, rate, Meeting::bounce).empty()) << method;
+            EXPECT_LE(std::hypot(crease.world.position(crease.ball)[0],
+                                 crease.world.position(crease.ball)[1]),
+                      1e-12)
+                << method << ' ' << rate;
+        }
+}
+
+// The wall alone bears this ball, N = −n·g, and its belt takes it off the floor with
+// g + N·(n + μ·t), where t is the belt's direction.
+TEST(Squeezes, ABeltTakesABallOffAnotherOne) {
+    const Vec3 gravity{-0.9418429, -0.3360534};
+    const Vec3 wall = normalised(Vec3{0.9594367, -0.2819241});
+    for (const char* method : {"velocity_verlet", "rk2_heun", "rk4"})
+        for (const int rate : {60, 240}) {
+            BeltCrease crease(method, rate, gravity, {{-0.0641547, 0.9979400}, 2.6402813, 1.846},
+                              {wall, 2.8846837, -1.846});
+            const double push = -dot(wall, gravity);
+            const Vec3 up{-wall[1], wall[0]};  // a belt of negative speed runs anticlockwise
+            const Vec3 a = gravity + wall * push + up * (2.8846837 * push);
+            crease.world.step(rate / 2);
+            for (const int axis : {0, 1})
+                EXPECT_NEAR(crease.world.position(crease.ball)[axis], a[axis] / 8, 1e-9)
+                    << method << ' ' << rate << ' ' << axis;
+        }
+}
+
+// Belts that draw a ball in lock it, also while one of them moves: it stays in the crease.
+TEST(Squeezes, ALockedBallFollowsItsCrease) {
+    const double tilt = 0.8;
+    const Vec3 left{std::sin(tilt), std::cos(tilt)};
+    const Vec3 right{-std::sin(tilt), std::cos(tilt)};
+    for (const char* method : {"velocity_verlet", "rk4"})
+        for (const int rate : {30, 60, 240}) {
+            BeltCrease crease(method, rate, {0, -10}, {left, 2, 1.5}, {right, 2, -2});
+            World& world = crease.world;
+            world.step(rate / 3);
+            const std::int64_t before = world.bodies().evaluations();
+            const Vec3 start = world.position(crease.obstacles[0]);
+            const int steps = rate / 5;
+            for (int tick = 1; tick <= steps; ++tick) {
+                const double way = 0.3 * tick / rate;
+                world.move_obstacle(crease.obstacles[0], start + left * way, left * 0.3);
+                world.step();
+                // n·x is the way on the left, and 0 on the right.
+                const double y = way / (2 * std::cos(tilt));
+                EXPECT_NEAR(world.position(crease.ball)[0], way / (2 * std::sin(tilt)), 1e-12);
+                EXPECT_NEAR(world.position(crease.ball)[1], y, 1e-12) << method << ' ' << rate;
+            }
+            EXPECT_LE(world.bodies().evaluations() - before, steps * 512) << method << ' ' << rate;
+        }
 }
 
 }  // namespace

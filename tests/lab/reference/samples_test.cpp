@@ -179,7 +179,8 @@ TEST(SampledMotion, KeepsApartWhatAKinkParts) {
     EXPECT_EQ(motion.cubic_error(1, {}, {}, kink, 1), 0);
     // Leaving a sample out shows no kink.
     EXPECT_LE(
-        interpolation_errors({1, one_row(trajectory, 1), {trajectory.kinks[1]}}, per_second, false).back(),
+        interpolation_errors({1, one_row(trajectory, 1), {trajectory.kinks[1]}}, per_second, false)
+            .back(),
         1e-15);
 }
 
@@ -245,8 +246,8 @@ TEST(InterpolationErrors, BoundThoseBesideAStop) {
         const SampledMotion motion(trajectory, per_second, 0);
         double most = 0;
         for (Real t = 0; t < Real(samples - 1) * spacing; t += 0.0037L)
-            most = std::max(
-                most, static_cast<double>(std::abs(motion.at(0, t).x[0] - state(t).x[0])));
+            most =
+                std::max(most, static_cast<double>(std::abs(motion.at(0, t).x[0] - state(t).x[0])));
         EXPECT_GE(interpolation_errors(trajectory, per_second, true).back(), most)
             << static_cast<double>(start);
     }

@@ -152,7 +152,8 @@ private:
             std::move(fine.trajectory), reference_.samples.per_second, fastest_motion(start_));
     }
 
-    /// Whether accelerations may jump within an interval, where a body stops, slips or leaves a face.
+    /// Whether accelerations may jump within an interval, where a body stops, slips or leaves a
+    /// face.
     [[nodiscard]] bool jumps() const { return scene_.has_obstacles(); }
     /// Samples by which the error between them falls below the wanted error, if that is within
     /// reach and the steps themselves meet it.

@@ -256,8 +256,8 @@ std::vector<double> interpolation_errors(const Trajectory& trajectory, std::int6
                              2 * static_cast<Real>(spacing) / static_cast<Real>(per_second));
         std::vector<double> errors;
         for (std::int64_t sample = 0; sample < trajectory.samples(); ++sample)
-            errors.push_back(left_out(trajectory, per_second, middle, sample,
-                                      sample - 3 * spacing, 2 * spacing));
+            errors.push_back(left_out(trajectory, per_second, middle, sample, sample - 3 * spacing,
+                                      2 * spacing));
         return errors;
     };
     const std::vector<double> at_twice = left_out_everywhere(1);

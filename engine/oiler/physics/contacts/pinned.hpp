@@ -102,7 +102,9 @@ protected:
             settled_ = leg.tau == left_;
             return leg;
         }
-        const auto locks = [&](const State& at, T tau) { return is_locked(at, tau) ? T(1) : T(-1); };
+        const auto locks = [&](const State& at, T tau) {
+            return is_locked(at, tau) ? T(1) : T(-1);
+        };
         end_where_negative(locks, T(1), leg, move);
         return leg;
     }

@@ -193,10 +193,11 @@ protected:
             there[i].velocity = surface_velocity(near.obstacle, near.normal, start_ + tau);
         }
         const Support then = support.with(there);
-        end = {then.onto(end.x, [&](const TouchOf<T, Axes>& touch) {
-                   const auto index = static_cast<std::size_t>(&touch - there.data());
-                   return gap_on_side(near_of(support, index), from, end.x, tau);
-               }),
+        end = {then.onto(end.x,
+                         [&](const TouchOf<T, Axes>& touch) {
+                             const auto index = static_cast<std::size_t>(&touch - there.data());
+                             return gap_on_side(near_of(support, index), from, end.x, tau);
+                         }),
                then.following(end.v)};
     }
     /// One step of `tau` s on the curve of an obstacle: a push along its normal, of a size that

@@ -130,8 +130,9 @@ public:
         }
         return solve(with_friction, wanted);
     }
-    /// Those of the touches that bear a body with a velocity `along` them: their pushes with friction
-    /// are positive, and drive it off the others. Null if no pushes do.
+    /// Those of the touches that bear a body with a velocity `along` them: their pushes with
+    /// friction are positive, and drive it off the others. Of several answers, none is first, then
+    /// all. Null if there is no answer.
     template <class Needed>
     [[nodiscard]] std::optional<Support> bearing(const Vector& along, Needed needed) const {
         const unsigned all = (1U << count_) - 1;

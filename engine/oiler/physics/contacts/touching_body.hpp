@@ -134,8 +134,8 @@ protected:
         });
         return drags_on || pressed.size() > support.size() ? pressed : support;
     }
-    /// Which of several obstacles bear a body that slips along all of them: it is locked between all
-    /// if no pushes with friction do. Null if there are not several, or too many.
+    /// Which of several obstacles bear a body that slips along all of them: it is locked between
+    /// all if no pushes with friction do. Null if there are not several, or too many.
     [[nodiscard]] std::optional<Support> bearing_slips(const State& state, const Vec& a) const {
         if (!any_moved_) return std::nullopt;
         Support all;
