@@ -128,12 +128,12 @@ void add_kinks(Trajectory& trajectory, const Bodies& bodies, const Rate& rate) {
     }
 }
 
-/// Linked bodies keep the order of the method in a slide without friction on a plane.
+/// Whether linked bodies that slide on the obstacle keep the order of the method.
 bool keeps_order(const Obstacle& one) {
     return one.friction == 0 && !one.swing && std::holds_alternative<HalfSpaceShape>(one.shape);
 }
 
-/// Whether a body with links has met an obstacle, or slides now, with order 1.
+/// Whether a body with links has met an obstacle, or slides on one with order 1.
 bool any_linked_lands(const Trajectory& trajectory, const Bodies& bodies) {
     if (!bodies.has_obstacles()) return false;
     const auto slides = [&](const Touch& touch) {

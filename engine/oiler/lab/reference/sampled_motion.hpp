@@ -61,8 +61,8 @@ private:
 /// The estimated largest error of a SampledMotion between its samples, m, up to each sample. It
 /// compares samples with interpolations that leave them out, at two spacings, and extrapolates to
 /// the spacing of all samples. Samples near kinks are left out. `may_jump` tells whether
-/// accelerations may jump, where a body stops or slips; at the ends, such a jump is as large as an
-/// extrapolation finds it.
+/// accelerations may jump, where a body stops or slips; the error near the ends is then that of an
+/// extrapolation.
 [[nodiscard]] std::vector<double> interpolation_errors(const Trajectory& trajectory,
                                                        std::int64_t per_second, bool may_jump);
 
