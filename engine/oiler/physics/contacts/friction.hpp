@@ -27,7 +27,7 @@ struct Friction {
     }
     /// The most that friction can hold against an acceleration of the body, m/s².
     [[nodiscard]] T grip(const Support& support, const Vector& a, T tau) const {
-        return support.grip(course ? a - acceleration_change(tau) : a);
+        return course ? support.grip(a - acceleration_change(tau)) : support.grip(a);
     }
     /// The acceleration of a body along the obstacles, without friction.
     [[nodiscard]] Vector borne(const Support& support, const Vector& a, T tau) const {

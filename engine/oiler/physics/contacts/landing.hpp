@@ -46,10 +46,10 @@ public:
     void stay_crushed(const State& state, T duration) {
         this->begin(state, duration);
         for (Near& near : nears_) {
-            if (!near.obstacle.bounded && !near.obstacle.course.moves()) continue;
+            if (!near.obstacle.bounded && !near.moves) continue;
             near.yields = true;
             const T noise = gap_noise(near, state);
-            const T least = near.obstacle.course.moves() ? noise : -16 * noise;
+            const T least = near.moves ? noise : -16 * noise;
             near.passed = gap_of(near, state.x) <= least;
         }
     }
@@ -135,12 +135,13 @@ private:
     void lift(State& state) {
         for (Near& near : nears_) {
             near.lifted = false;
-            renew_normal(near, state.x, start_);
+            if (any_renewed_) renew_normal(near, state.x, start_);
         }
         const auto noise = [&](const Near& near) { return gap_noise(near, state); };
         const auto gap = [&](const Near& near, const Vec& x) {
             const T distance = gap_of(near, x);
-            const bool is_passed = near.passed || distance < -near.deepest(noise(near), radius_);
+            const bool is_passed =
+                near.passed || (distance < 0 && distance < -near.deepest(noise(near), radius_));
             return is_passed ? std::numeric_limits<T>::infinity() : distance;
         };
         const Vec before = state.x;
@@ -150,6 +151,7 @@ private:
                 for (Near& one : nears_) renew_normal(one, state.x, start_);
             });
         } while (any_renewed_ && pass_if_caught(state, before, gap, noise));
+        if (state.x == before) return;
         const T way = largest(state.x - before);
         for (const Near& near : nears_)
             if (near.lifted && !squeezed_ && way > hidden_lifts * noise(near))
@@ -169,7 +171,7 @@ private:
             renew_normal(near, state.x, start_);
             const T distance = gap(near, state.x);
             if (distance >= -noise(near)) continue;
-            if (near.obstacle.course.moves()) {
+            if (near.moves) {
                 near.passed = any = true;
             } else if (near.obstacle.bounded && distance < least) {
                 deepest = &near;
@@ -185,7 +187,7 @@ private:
     [[nodiscard]] bool has_room(const Vec& x, const Vec& before, Gap gap, Noise noise) const {
         const bool is_far = largest(x - before) > radius_;
         return std::ranges::all_of(nears_, [&](const Near& near) {
-            if (is_far && near.lifted && near.obstacle.course.moves()) return false;
+            if (is_far && near.lifted && near.moves) return false;
             const T least = any_moves_ ? 4 * noise(near) : std::max(4 * noise(near), radius_ / 16);
             if (gap(near, x) < -least) return false;
             return !near.obstacle.is_thin() || near.passed || gap(near, before) < -noise(near) ||
@@ -234,7 +236,7 @@ private:
             state.x -= near.normal * gap_of(near, state.x);
             near.met = true;
             // Between obstacles that close in on the body, bounces would have no end.
-            const bool is_caught = near.obstacle.course.moves() && ++near.bounces > most_caught;
+            const bool is_caught = near.moves && ++near.bounces > most_caught;
             const T kept = is_caught ? T(0) : near.restitution * speed;
             take_off(near);
             if (++bounces_at_once_ > most_bounces_at_once) {
@@ -261,7 +263,7 @@ private:
         const Near* moving = nullptr;
         for (const Near& near : nears_) {
             if (!touched(near)) continue;
-            if (near.obstacle.course.moves()) moving = &near;
+            if (near.moves) moving = &near;
             if (!slowest || length(near.velocity) < length(slowest->velocity)) slowest = &near;
         }
         if (!moving) return false;
@@ -280,7 +282,7 @@ private:
         const Vec before = std::exchange(state.v, v);
         report(Meeting::crushed, moving, start_, state, before);
         for (Near& near : nears_)
-            if (near.obstacle.course.moves() && touches(near, state)) near.passed = true;
+            if (near.moves && touches(near, state)) near.passed = true;
     }
     /// Gives a body the velocity along all obstacles that it touches. Returns false if friction
     /// holds it between them: then moving ones pass.
@@ -298,7 +300,7 @@ private:
     }
     [[nodiscard]] static const Near* moving_of(const Support& support) {
         for (std::size_t i = 0; i < support.size(); ++i)
-            if (near_of(support, i).obstacle.course.moves()) return &near_of(support, i);
+            if (near_of(support, i).moves) return &near_of(support, i);
         return nullptr;
     }
     /// Bounces off all obstacles that the body goes into at this instant with one solve, which

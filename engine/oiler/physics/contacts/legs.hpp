@@ -44,7 +44,7 @@ protected:
     template <class Move>
     void end_at_impact(Near& near, const State& state, const Vec& a, Leg& leg, Move move) {
         const bool is_fixed_plane =
-            !near.obstacle.bounded && !near.obstacle.course.moves() && !near.obstacle.is_one_way();
+            !near.obstacle.bounded && !near.moves && !near.obstacle.is_one_way();
         const auto bracket =
             is_fixed_plane ? impact(near, state, leg, move) : entry(near, state, a, leg, move);
         if (!bracket) return;

@@ -25,9 +25,10 @@ struct Near : TouchOf<T, Axes> {
     int bounces = 0;      ///< in this step
     bool lifted = false;  ///< the body has just been lifted out of it
     bool passed = false;  ///< the body went through it from a side from which it is not met
-    bool yields = obstacle.course.moves();  ///< bodies that are deep in it pass
-    bool bears = false;                     ///< it may bear the body: touched, and not left
-    bool leaves = false;                    ///< touched, and left
+    bool moves = obstacle.course.moves();
+    bool yields = moves;  ///< bodies that are deep in it pass
+    bool bears = false;   ///< it may bear the body: touched, and not left
+    bool leaves = false;  ///< touched, and left
 
     /// The depth, m, from which on a body of `radius` m passes, instead of being lifted: it came
     /// from a side from which it does not meet the obstacle, or was crushed.
@@ -35,12 +36,12 @@ struct Near : TouchOf<T, Axes> {
         if (obstacle.is_one_way()) return noise;
         return yields ? std::max(noise, radius / 16) : std::numeric_limits<T>::infinity();
     }
-    [[nodiscard]] bool is_moved() const { return obstacle.course.moves() || obstacle.belt != 0; }
+    [[nodiscard]] bool is_moved() const { return moves || obstacle.belt != 0; }
 
     Near(const ObstacleOf<T, Axes>& of, std::size_t at)
-        : TouchOf<T, Axes>{of.surface, surface_velocity(of, of.surface.normal, T(0)), T(0)},
-          obstacle(of),
-          index(at) {}
+        : TouchOf<T, Axes>{of.surface, {}, T(0)}, obstacle(of), index(at) {
+        if (is_moved()) this->velocity = surface_velocity(of, of.surface.normal, T(0));
+    }
 };
 
 /// The gap (m) of a body at x, `start` s after the start of the step.

@@ -36,7 +36,7 @@ protected:
     }
     [[nodiscard]] static bool moves(const Support& support) {
         for (std::size_t i = 0; i < support.size(); ++i)
-            if (near_of(support, i).obstacle.course.moves()) return true;
+            if (near_of(support, i).moves) return true;
         return false;
     }
     [[nodiscard]] static bool is_pinned(const Support& support) {

@@ -46,7 +46,7 @@ protected:
     /// touches of the support know the obstacle's acceleration of now.
     [[nodiscard]] Vec as_of_now(const Support& support, const Vec& a, T tau) const {
         const Course<T, Axes>& course = near_of(support).obstacle.course;
-        if (tau == 0 || !course.accelerates()) return a;
+        if (tau == 0 || !any_moves_ || !course.accelerates()) return a;
         return a - (course.acceleration_at(start_ + tau) - course.acceleration_at(start_));
     }
     /// The acceleration of a body that is not held by friction, relative to the surface, m/s².
@@ -54,7 +54,7 @@ protected:
         Vec pull = support.without_push(as_of_now(support, a, tau));
         const Near& first = near_of(support);
         const Course<T, Axes>& course = first.obstacle.course;
-        if (course.accelerates()) pull -= course.acceleration_at(start_);
+        if (any_moves_ && course.accelerates()) pull -= course.acceleration_at(start_);
         // A belt turns the body round a curve.
         const bool turns = first.obstacle.belt != 0 && support.size() == 1;
         return turns ? pull - first.normal * dot(first.normal, pull) : pull;
@@ -152,7 +152,8 @@ protected:
         const bool free_to_turn = grip > 0 && support.size() + 2 <= Axes;
         const Course<T, Axes>& course = near_of(support).obstacle.course;
         const Friction<T, Axes> friction{direction, rest, free_to_turn && is_across(v, pull),
-                                         course.accelerates() ? &course : nullptr, start_};
+                                         any_moves_ && course.accelerates() ? &course : nullptr,
+                                         start_};
         const auto move = [&](T tau) {
             State end = body_.slide(state, start_, tau, support, friction);
             if (!stands(support)) stay_beside(support, state.x, tau, end);
@@ -288,6 +289,7 @@ protected:
         return leg;
     }
 
+    using Base::any_moves_;
     using Base::any_renewed_;
     using Base::body_;
     using Base::end_at_features;

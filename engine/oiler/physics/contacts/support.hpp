@@ -48,13 +48,25 @@ protected:
 
     /// The sum of normals with these weights cancels excess(plane) in the direction of each plane.
     template <class Excess>
-    [[nodiscard]] Vector weights(Excess excess) const {
-        if (count_ < 2) {
-            Vector weight{};
-            for (const Touch* const plane : std::span(planes_).first(count_))
-                weight.axis[0] = -excess(*plane) / dot(plane->normal, plane->normal);
-            return weight;
-        }
+    [[nodiscard]] [[gnu::always_inline]] inline Vector weights(Excess excess) const {
+        if (count_ > 1) return weights_of_several(excess);
+        Vector weight{};
+        if (count_ == 1)
+            weight.axis[0] = -excess(*planes_[0]) / dot(planes_[0]->normal, planes_[0]->normal);
+        return weight;
+    }
+    [[nodiscard]] [[gnu::always_inline]] inline Vector sum_of_normals(const Vector& weight) const {
+        Vector sum{};
+        for (std::size_t i = 0; i < count_; ++i) sum += planes_[i]->normal * weight.axis[i];
+        return sum;
+    }
+
+    std::array<const Touch*, Axes> planes_{};
+    std::size_t count_ = 0;
+
+private:
+    template <class Excess>
+    [[nodiscard]] [[gnu::noinline]] Vector weights_of_several(Excess excess) const {
         auto gram = Matrix<T, Axes>::scalar(T(1));
         Vector opposed{};
         for (std::size_t i = 0; i < count_; ++i) {
@@ -64,14 +76,6 @@ protected:
         }
         return solve(gram, opposed);
     }
-    [[nodiscard]] Vector sum_of_normals(const Vector& weight) const {
-        Vector sum{};
-        for (std::size_t i = 0; i < count_; ++i) sum += planes_[i]->normal * weight.axis[i];
-        return sum;
-    }
-
-    std::array<const Touch*, Axes> planes_{};
-    std::size_t count_ = 0;
 };
 
 /// The obstacles that bear a body. They cancel pushes into them.
@@ -245,6 +249,8 @@ private:
             }
             if (!pressed) break;
             support.planes_[support.count_++] = pressed;
+            // Only one, into which the body is pressed.
+            if (std::size(touches) == 1) break;
             // Between opposite obstacles there is no direction to push the body out.
             if (std::isfinite(largest(support.reactions(push, excess)))) continue;
             --support.count_;
@@ -257,7 +263,8 @@ private:
         return weights([&](const Touch& touch) { return excess(touch, push); });
     }
     template <class Excess>
-    [[nodiscard]] Vector without(const Vector& push, Excess excess) const {
+    [[nodiscard]] [[gnu::always_inline]] inline Vector without(const Vector& push,
+                                                               Excess excess) const {
         const auto stands = [](const Touch* touch) {
             constexpr bool is_velocity = std::is_same_v<Excess, OfVelocity<T, Axes>>;
             return touch->velocity == Vector{} && (is_velocity || touch->inwards == 0);

@@ -26,7 +26,7 @@ protected:
         : nears_(nears), radius_(radius), body_(body) {
         for (const Near& near : nears) {
             any_renewed_ |= near.obstacle.bounded || near.is_moved();
-            any_moves_ |= near.obstacle.course.moves();
+            any_moves_ |= near.moves;
             any_moved_ |= near.is_moved();
         }
     }
@@ -37,13 +37,16 @@ protected:
         const T speed = largest(body_.accelerate(state, T(0))) * duration;
         T fastest = 0;
         for (const Near& near : nears_)
-            fastest = std::max(fastest, near.obstacle.course.most_speed(duration));
+            if (near.moves) fastest = std::max(fastest, near.obstacle.course.most_speed(duration));
         hidden_ = {8 * epsilon * (speed + 2 * fastest), 8 * epsilon * speed * duration};
     }
 
     static constexpr T epsilon = std::numeric_limits<T>::epsilon();
 
     [[nodiscard]] T gap_noise(const Near& near, const State& state) const {
+        if (!any_renewed_)
+            return hidden_distance(near.obstacle.surface, state, radius_, duration_) +
+                   hidden_.distance;
         return hidden_distance(near.obstacle, state, radius_, duration_) + hidden_.distance;
     }
     [[nodiscard]] T speed_noise(const State& state) const {
@@ -52,6 +55,7 @@ protected:
     [[nodiscard]] T gap_of(const Near& near, const Vec& x) const { return gap_at(near, x, T(0)); }
     /// The gap `tau` s from now.
     [[nodiscard]] T gap_at(const Near& near, const Vec& x, T tau) const {
+        if (!any_renewed_) return gap(near.obstacle.surface, x, radius_);
         return gap(near, x, start_ + tau, radius_);
     }
     /// The gap `tau` s from now of a body that was at `from` and touched an obstacle there: below

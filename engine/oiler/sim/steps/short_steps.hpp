@@ -227,6 +227,7 @@ private:
                                       const Support<T, Axes>& support) {
         const Vector whole = physics.forces().accelerate(at, t);
         const Vector kick = physics.forces().field(at.x, t);
+        if (whole == kick) return false;
         const T noise = 64 * std::numeric_limits<T>::epsilon() * (largest(whole) + largest(kick));
         return largest(support.reactions(whole) - support.reactions(kick)) > noise;
     }

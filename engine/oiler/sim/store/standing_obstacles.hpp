@@ -100,6 +100,7 @@ public:
     /// for some that are farther.
     template <class F>
     void for_each_box_near(const Vec& x, T most, F f) const {
+        if (!any_boxes()) return;
         const auto call = [&](std::size_t slot) {
             if (is_box(slot)) f(slot, all_[slot]);
         };
