@@ -99,6 +99,10 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     unsure.pixel_until = 1.25;
     EXPECT_EQ(judge(unsure).text,
               "Right to a pixel until 1.2 s at 60 Hz semi_implicit_euler, to 3 cm since.");
+    unsure.runs[0].visible_from = 1.5;
+    EXPECT_EQ(judge(unsure).grade, Grade::visible) << "it was, before the reference was that bad";
+    EXPECT_EQ(judge(unsure, {}, 2).text,
+              "More than a pixel off since 3.5 s at 60 Hz semi_implicit_euler, 3 cm at most.");
     WhatIf still = measured(0, 0, 0);
     still.uncertainty = 0;
     EXPECT_EQ(judge(still).text, "No error so far at 60 Hz semi_implicit_euler.");

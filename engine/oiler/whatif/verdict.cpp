@@ -133,9 +133,20 @@ std::string end_text(const WhatIf& measured, double begin) {
     return fmt::format(" After {:.1f} s the true motion is not known.", until);
 }
 
-/// What is known of a distance that may be more than a pixel, or less.
+/// The grade of the played run: where its largest error is not certain, a pixel may be.
+Grade grade_of_played(const WhatIf& measured) {
+    const WhatIfRun& played = measured.runs.front();
+    const Grade grade = measured.error_of(played).grade(measured.pixel);
+    return grade == Grade::unknown && played.visible_from ? Grade::visible : grade;
+}
+
+/// What is known of a distance that is only known to be below a limit above a pixel.
 std::string limit_text(const WhatIf& measured, double begin, const std::string& setting) {
-    const std::string limit = length_text(measured.error_of(measured.runs.front()).limit());
+    const WhatIfRun& played = measured.runs.front();
+    const std::string limit = length_text(measured.error_of(played).limit());
+    if (played.visible_from)
+        return fmt::format("More than a pixel off since {:.1f} s at {}, {} at most.",
+                           begin + *played.visible_from, setting, limit);
     if (!(measured.pixel_until > 0))
         return fmt::format("Right to {} so far at {}.", limit, setting);
     return fmt::format("Right to a pixel until {:.1f} s at {}, to {} since.",
@@ -148,12 +159,11 @@ std::string distance_text(const WhatIf& measured, double begin,
     const WhatIfRun& played = measured.runs.front();
     const std::string setting = short_text(played.stepping);
     const KnownError error = measured.error_of(played);
-    const Grade grade = error.grade(measured.pixel);
     if (error.most() == 0) return fmt::format("No error so far at {}.", setting);
-    if (grade == Grade::good)
+    if (error.grade(measured.pixel) == Grade::good)
         return fmt::format("Drawn within {} of the true motion, less than a pixel, at {}.",
                            length_text(error.most()), setting);
-    if (grade == Grade::unknown) return limit_text(measured, begin, setting);
+    if (!error.is_certain()) return limit_text(measured, begin, setting);
     const double pixels = played.distance / measured.pixel;
     return fmt::format("{} up to {} off, {}{:.0f} px, at {}.{}", name_of(played.furthest),
                        length_text(played.distance), pixels > most_pixels ? "more than " : "",
@@ -176,7 +186,7 @@ Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before
             fmt::format("From {:.1f} s on, other things happen at {} than in the true motion.{}{}",
                         begin + *played.other_play_from, setting, cure_text(measured), end)};
     const auto now = [&](Grade grade) { return is_known_now(measured) ? grade : Grade::unknown; };
-    const Grade grade = measured.error_of(played).grade(measured.pixel);
+    const Grade grade = grade_of_played(measured);
     if (const Reading* const reading = worst_reading(measured, before))
         return {now(std::max(grade, Grade::visible)),
                 reading_text(measured, *reading) + cure_text(measured) + end};
