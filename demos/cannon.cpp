@@ -202,27 +202,33 @@ struct Cannon {
     }
 
     void draw_texts(Picture& picture) const {
-        const auto text = [&](Point at, float size, Align align, const std::string& words) {
+        const auto text = [&](Space space, Point at, float size, const std::string& words) {
             picture.labels.push_back(
-                {.at = at, .text = words, .size = size, .align = align, .layer = 1});
+                {.at = at,
+                 .text = words,
+                 .size = size,
+                 .align = space == Space::upper_left ? Align::left : Align::centre,
+                 .space = space,
+                 .layer = 1});
         };
         const auto sheet = [&](const std::string& title, const std::string& keys) {
             picture.polygons.push_back({.points = rectangle({320, 211}, {640, 72}),
                                         .colour = palette::faded(palette::paper, 216),
                                         .space = Space::canvas,
                                         .layer = 1});
-            text({320, 220}, 26, Align::centre, title);
-            text({320, 196}, 14, Align::centre, keys);
+            text(Space::canvas, {320, 220}, 26, title);
+            text(Space::canvas, {320, 196}, 14, keys);
         };
-        text({16, 334}, 16, Align::left, fmt::format("Level {} of {}", level + 1, levels.size()));
-        text({16, 314}, 14, Align::left, fmt::format("Score {}   Shots {}", score, shots));
-        text({320, 12}, 11, Align::centre,
+        text(Space::upper_left, {16, 334}, 16,
+             fmt::format("Level {} of {}", level + 1, levels.size()));
+        text(Space::upper_left, {16, 314}, 14, fmt::format("Score {}   Shots {}", score, shots));
+        text(Space::bottom, {320, 12}, 11,
              "Aim with mouse or arrows. Hold Space or the button, and release. Escape: menu");
         const auto wind = static_cast<float>(levels[level].wind);
-        text({320, 338}, 12, Align::centre, fmt::format("Wind {} m/s", std::abs(wind)));
+        text(Space::top, {320, 338}, 12, fmt::format("Wind {} m/s", std::abs(wind)));
         const Point tail{320 - 3 * wind, 324}, head{320 + 3 * wind, 324};
         picture.polygons.push_back(
-            {.points = arrow(tail, head, 4), .colour = palette::blue, .space = Space::canvas});
+            {.points = arrow(tail, head, 4), .colour = palette::blue, .space = Space::top});
         if (is_paused)
             sheet("Pause", "Escape: resume   R: restart   Q: quit");
         else if (!has_targets())

@@ -132,9 +132,9 @@ struct Galton {
                  .colour = palette::blue});
             text(to_point({x, -0.3}), fmt::format("{}", counts[bin]), 9, Space::world);
         }
-        text({14, 330}, fmt::format("{} balls of {}", count(), balls), 14, Space::canvas);
-        text({14, 308}, fmt::format("deviation {:.2f} m", deviation()), 11, Space::canvas);
-        text({14, 294}, fmt::format("binomial law {:.2f} m (blue)", law), 11, Space::canvas);
+        text({14, 330}, fmt::format("{} balls of {}", count(), balls), 14, Space::upper_left);
+        text({14, 308}, fmt::format("deviation {:.2f} m", deviation()), 11, Space::upper_left);
+        text({14, 294}, fmt::format("binomial law {:.2f} m (blue)", law), 11, Space::upper_left);
         return picture;
     }
 };

@@ -137,7 +137,9 @@ struct Platformer {
         const Vec3 eye = at + Vec3{std::clamp(world.velocity(hero)[0] / 10, -0.18, 0.18), 0.1};
         picture.discs.push_back({key_of(world, hero, 1), to_point(eye), 0.08F, palette::ink});
         const char* const keys = "← → run, Space jumps, ↓ drops, E swings";
-        picture.labels = {{{}, {12, 340}, fmt::format("coins {} of 7   {}", coins_found(), keys)}};
+        picture.labels = {{.at = {12, 340},
+                           .text = fmt::format("coins {} of 7   {}", coins_found(), keys),
+                           .space = Space::upper_left}};
         return picture;
     }
 };

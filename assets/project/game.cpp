@@ -51,8 +51,9 @@ struct Game {  // a ball that bounces after a lantern on a spring
         const Point light = to_point(world.position(lantern));
         picture.polylines.push_back(
             {key_of(world, lantern), coil(to_point(hook), light, 6, 0.15F), 2, palette::grey});
+        const std::string text = std::to_string(score);
         picture.labels = {{{}, {12, 12}, "Left and Right roll, Space jumps", 12, palette::grey},
-                          {{}, {320, 330}, std::to_string(score), 24, palette::ink}};
+                          {.at = {16, 332}, .text = text, .size = 24, .space = Space::upper_left}};
         return picture;
     }
 };

@@ -103,7 +103,8 @@ struct Cannon {
         std::string text = fmt::format("Level {}   Score {}", level + 1, score);
         if (!has_targets()) text += "   You win. R: restart";
         if (is_paused) text = "Escape: resume   R: restart   Q: quit";
-        picture.labels.push_back({.at = {16, 336}, .text = text, .size = 16});
+        picture.labels.push_back(
+            {.at = {16, 336}, .text = text, .size = 16, .space = Space::upper_left});
         return picture;
     }
 };

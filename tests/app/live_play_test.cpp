@@ -2,6 +2,10 @@
 // A game that a player controls: pause, way back, changes of the setting, restarts, divergence. The
 // test has its own clock.
 #include "oiler/app/live_play.hpp"
+
+#include <atomic>
+#include <thread>
+
 #include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
@@ -275,6 +279,28 @@ TEST(GameClocks, CatchUpTwoStepsUntilStepsAreTimed) {
     EXPECT_EQ(clock.advance(std::chrono::seconds(1)), 2);
     clock.limit_steps(2, std::chrono::microseconds(1));
     EXPECT_EQ(clock.advance(std::chrono::seconds(2)), 15) << "0.25 s";
+}
+
+// What plays along is made on another thread, but would take the time of the first frame.
+TEST_F(LivePlayTest, TheFirstFrameWaitsForNoCopyThatPlaysAlong) {
+    options.quiet = false;
+    std::atomic<int> made = 0;
+    const MakeGame counted = [&](const Settings& settings) {
+        ++made;
+        return std::make_unique<AnyGameOf<Walk>>(settings);
+    };
+    GameRun other{.options = options,
+                  .about = Walk::about,
+                  .make = counted,
+                  .playback = playback,
+                  .live = live,
+                  .inputs = live};
+    LivePlay first(other);
+    (void)first.play(time);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(made, 0);
+    for (int i = 1; made == 0 || !first.figures()->begin; ++i) (void)first.play(time + i * period);
+    EXPECT_EQ(first.figures()->begin->time, 0);
 }
 
 TEST_F(LivePlayTest, AQuietRunMeasuresNothing) {

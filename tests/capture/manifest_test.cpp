@@ -193,7 +193,7 @@ ElementKey key() {
     return {bits(), static_cast<std::uint32_t>(bits()), static_cast<std::uint32_t>(bits())};
 }
 
-Space space() { return bits() % 2 == 0 ? Space::world : Space::canvas; }
+Space space() { return static_cast<Space>(bits() % 8); }
 
 std::vector<Point> points(int count) {
     std::vector<Point> points;

@@ -189,6 +189,8 @@ TEST(PictureChanges, NameSpritesPolygonsLayersAndBars) {
               "1 polygon placed in another way");
     EXPECT_EQ(words([](Picture& p) { p.labels[0].size_in = Space::world; }),
               "1 label placed in another way");
+    EXPECT_EQ(words([](Picture& p) { p.labels[0].space = Space::upper_left; }),
+              "1 label placed in another way");
     EXPECT_EQ(words([](Picture& p) { p.has_bars = true; }), "bars beside the canvas new");
 }
 

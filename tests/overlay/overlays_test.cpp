@@ -158,6 +158,24 @@ TEST(Labels, OfAGameHave9PixelsAtLeast) {
     EXPECT_EQ(large.labels[0].size, 16) << "twice as large, or labels cover each other";
 }
 
+// A window of 800 by 225 pixels is 1280 by 360 units: 320 beside the canvas on each side. From 440
+// on, a label has 200 units of the canvas and those at the right: 320, or 640 in the left corner.
+TEST(Labels, HaveTheRoomOfTheirCorner) {
+    const auto legible = [](Space space, bool has_bars) {
+        Picture picture{
+            .labels = {{.at = {440, 0}, .text = std::string(119, 'x'), .size = 8, .space = space}},
+            .has_bars = has_bars};
+        keep_legible(picture, OverlayArea({800, 225}));
+        return picture.labels[0].size;
+    };
+    const float needed = 9 / 0.625F;  // 120 letters of 0.55 * 14.4 units are 950 units
+    EXPECT_EQ(legible(Space::canvas, false), 8);
+    EXPECT_EQ(legible(Space::upper_right, false), 8);
+    EXPECT_NEAR(legible(Space::upper_left, false), 840 / 0.55F / 120, rounding);
+    EXPECT_LT(legible(Space::upper_left, false), needed);
+    EXPECT_EQ(legible(Space::upper_left, true), 8) << "between bars it does not move";
+}
+
 /// A game without bodies.
 struct Empty {
     static constexpr About about{.name = "empty", .title = "Empty"};

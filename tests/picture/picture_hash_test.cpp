@@ -71,6 +71,9 @@ std::vector<Change> common_changes(Elements Picture::*list) {
         [=](Picture& p) { (p.*list).push_back(last(p)); },
         [=](Picture& p) { std::swap((p.*list)[0], (p.*list)[1]); },
     };
+    for (const Space space : {Space::upper_left, Space::top, Space::upper_right, Space::lower_left,
+                              Space::bottom, Space::lower_right})
+        changes.push_back([=](Picture& p) { last(p).space = space; });
     return changes;
 }
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <stdlib.h>
+
 #include <fstream>
 #include <functional>
 
@@ -327,6 +330,80 @@ TEST(Bitmap, NamesWhatIsWrong) {
         (void)make_bitmap({8193, 1}, Texels(std::size_t{4} * 8193));
     });
     expect_error(Exit::usage, "not 0x2", [&] { (void)make_bitmap({0, 2}, {}); });
+}
+
+/// A folder beside this program, removed with its contents.
+class FolderBesideProgram {
+public:
+    FolderBesideProgram() {
+        std::string pattern = (program() / "oiler-test-XXXXXX").string();
+        path_ = mkdtemp(pattern.data());
+    }
+    ~FolderBesideProgram() { std::filesystem::remove_all(path_); }
+    FolderBesideProgram(const FolderBesideProgram&) = delete;
+    FolderBesideProgram& operator=(const FolderBesideProgram&) = delete;
+
+    [[nodiscard]] static std::filesystem::path program() {
+        return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Works in another folder for the lifetime of the object.
+class WorkingIn {
+public:
+    explicit WorkingIn(const std::filesystem::path& folder)
+        : former_(std::filesystem::current_path()) {
+        std::filesystem::current_path(folder);
+    }
+    ~WorkingIn() { std::filesystem::current_path(former_); }
+    WorkingIn(const WorkingIn&) = delete;
+    WorkingIn& operator=(const WorkingIn&) = delete;
+
+private:
+    std::filesystem::path former_;
+};
+
+// The same name is an image in all three places, and a cut file in the last: so each error tells
+// which file was read.
+TEST(Bitmap, IsLookedForBesideTheProgramTheSourceAndInTheWorkingDirectory) {
+    const FolderBesideProgram program;
+    const Folder source, working;
+    const WorkingIn here(working.path());
+    const std::string name = program.path().filename() / "ship.png";
+    const auto load = [&] { return load_bitmap(name, (source / "game.cpp").c_str()); };
+    const std::vector<std::filesystem::path> places{program.path().parent_path(), source.path(),
+                                                    working.path()};
+    for (const std::filesystem::path& place : places) {
+        std::filesystem::create_directories((place / name).parent_path());
+        write(place / name, 40);
+    }
+    for (const std::filesystem::path& place : places) {
+        expect_error(Exit::usage, (place / name).string() + ": not a PNG", load);
+        write(place / name, png.size());
+        EXPECT_EQ(load()->rgba, texels);
+        std::filesystem::remove(place / name);
+    }
+    expect_error(Exit::usage,
+                 fmt::format("{}: cannot read the image: No such file or directory; looked in {}, "
+                             "{}, {}",
+                             name, places[0].string(), places[1].string(), places[2].string()),
+                 load);
+}
+
+TEST(Bitmap, IsLookedForBesideTheSourceThatCalls) {
+    const std::string source = std::filesystem::path(__FILE__).parent_path().string();
+    expect_error(Exit::usage, source, [] { (void)load_bitmap("missing.png"); });
+}
+
+TEST(Bitmap, OfAnAbsolutePathIsInOnePlace) {
+    const Folder folder;
+    const std::string path = folder / "missing.png";
+    EXPECT_EQ(line_of_error(Exit::usage, [&] { (void)load_bitmap(path); }),
+              path + ": cannot read the image: No such file or directory");
 }
 
 float length_of(const std::vector<Point>& line) {

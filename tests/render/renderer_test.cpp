@@ -237,6 +237,51 @@ TEST_F(Drawing, TheCameraLooksAtTheMiddleOfAnyFrame) {
     }
 }
 
+/// A disc of 10 units whose centre is 20 units from the corner, or from the edge, of the canvas.
+Picture of_disc_at(Space space, Point side) {
+    Picture picture = of_disc({320 + side.x * 300, 180 + side.y * 160}, 10);
+    picture.discs[0].space = space;
+    return picture;
+}
+
+// One unit is a pixel in each of these frames: a disc is 10 to 30 pixels from the edge it holds to,
+// and beside the middle otherwise.
+TEST_F(Drawing, CornersAndEdgesOfAFrameKeepWhatHoldsToThem) {
+    const std::pair<Space, Point> spaces[] = {
+        {Space::upper_left, {-1, 1}},  {Space::top, {0, 1}},     {Space::upper_right, {1, 1}},
+        {Space::lower_left, {-1, -1}}, {Space::bottom, {0, -1}}, {Space::lower_right, {1, -1}}};
+    const auto low = [](float side, int length) {
+        return side < 0 ? 10 : side > 0 ? length - 30 : length / 2 - 10;
+    };
+    for (const Size size : {Size{640, 360}, Size{1000, 360}, Size{640, 500}})
+        for (const auto& [space, side] : spaces) {
+            const Ink box = ink(draw(of_disc_at(space, side), size));
+            EXPECT_EQ(box.left, low(side.x, size.width)) << int(space) << " in " << size.width;
+            EXPECT_EQ(box.right, low(side.x, size.width) + 20);
+            EXPECT_EQ(box.bottom, low(side.y, size.height)) << int(space) << " in " << size.height;
+            EXPECT_EQ(box.top, low(side.y, size.height) + 20);
+        }
+}
+
+TEST_F(Drawing, ACornerIsThatOfTheCanvasBetweenBars) {
+    for (const Size size : {Size{640, 360}, Size{1000, 360}, Size{640, 500}}) {
+        Picture held = of_disc_at(Space::upper_right, {1, 1});
+        Picture still = of_disc_at(Space::canvas, {1, 1});
+        held.has_bars = still.has_bars = true;
+        EXPECT_EQ(draw(held, size).rgb, draw(still, size).rgb);
+    }
+}
+
+// A game that changes `Space::canvas` to a corner keeps its golden frames of 16:9.
+TEST_F(Drawing, ACornerIsThatOfTheCanvasIn16To9) {
+    for (const Size size : {Size{320, 180}, Size{640, 360}, Size{1280, 720}}) {
+        Picture still = of_text("Score 7", {12.3F, 331.7F}, 11.1F);
+        Picture held = still;
+        held.labels[0].space = Space::upper_left;
+        EXPECT_EQ(draw(held, size).rgb, draw(still, size).rgb);
+    }
+}
+
 TEST_F(Drawing, TheSamePictureGivesTheSameBytes) {
     const Picture picture = rich_picture();
     const Pixels first = draw(picture);

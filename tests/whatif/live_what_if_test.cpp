@@ -46,7 +46,9 @@ const Stepping euler{.method = &find_method("semi_implicit_euler"), .rate = {60}
 /// A game that is played while what it costs is measured, in the time that this needs.
 template <class G = Fall, class Player = OnePress>
 struct Measured {
-    explicit Measured(const Stepping& stepping = euler) : settings{.stepping = stepping} {}
+    explicit Measured(const Stepping& stepping = euler) : settings{.stepping = stepping} {
+        along.start(0);
+    }
 
     Settings settings;
     AnyGameOf<G> game{settings};
@@ -67,6 +69,7 @@ TEST(LiveWhatIf, MeasuresTheGameThatItNeverTouches) {
     OnePress other;
     const MakeGame make = make_fall;
     LiveWhatIf along({settings}, make);
+    along.start(0);
     InputTap tap(player, along);
     EXPECT_EQ(along.figures().verdict.grade, Grade::unknown);
     for (const std::int64_t second : {0, 1}) {
@@ -297,6 +300,7 @@ TEST(LiveWhatIf, AGameNeverWaitsForTheRunsThatLagBehind) {
         return std::make_unique<AnyGameOf<Held>>(own);
     };
     LiveWhatIf along({settings}, make);
+    along.start(0);
     for (int step = 1; step <= 30; ++step) along.play_until(step);
     EXPECT_GE(along.behind(30), 30);
     Held::go = true;
@@ -312,9 +316,40 @@ TEST(LiveWhatIf, ACopyThatFailsEndsTheMeasuringAlone) {
         throw std::length_error("too long");
     };
     LiveWhatIf along({Settings{.stepping = euler}}, make);
+    along.start(0);
     while (!along.figures().has_stopped) along.play_until(1);
     EXPECT_EQ(along.figures().verdict.text, "too long");
     EXPECT_EQ(along.figures().verdict.grade, Grade::unknown);
+}
+
+/// A game of too many bodies to be copied, which counts how often it was made.
+struct Crowd {
+    static constexpr About about{.name = "crowd", .title = "Crowd", .rate = 60};
+    static inline std::atomic<int> made = 0;
+    World world;
+    explicit Crowd(const Settings& settings) : world(1, settings) {
+        ++made;
+        for (std::size_t i = 0; i <= most_measured_bodies; ++i)
+            (void)world.spawn(Body{.velocity = {2}});
+    }
+    void update(const Input&) {}
+};
+
+// Kinetic energy: 100,001 bodies of 1 kg at 2 m/s have 2 J each.
+TEST(LiveWhatIf, AGameOfTooManyBodiesIsMadeOnceForAllItsRounds) {
+    Measured<Crowd> measured;
+    const int made = Crowd::made;
+    for (const std::int64_t round : {10, 20, 30}) {
+        measured.along.repeat(round);
+        measured.along.play_until(round + 5);
+        const LiveFigures& figures = measured.along.figures();
+        EXPECT_TRUE(figures.has_stopped);
+        EXPECT_EQ(figures.verdict.text, "");
+        EXPECT_EQ(figures.begin.value().energy, 2.0 * (most_measured_bodies + 1));
+    }
+    EXPECT_EQ(Crowd::made, made);
+    measured.along.start(40);
+    EXPECT_EQ(Crowd::made, made + 1) << "it may be another game";
 }
 
 // A game that counts what leaves it, on its own thread.

@@ -70,7 +70,9 @@ public:
         : what_if_({run.options.settings, run.options.controls}, run.make, LiveWhatIf::Pace::own),
           inputs_(run.inputs, what_if_),
           profile_(run.profile),
-          inspector_(run.playback.game(), "F1 in a window changes them.", Renderer::font()) {}
+          inspector_(run.playback.game(), "F1 in a window changes them.", Renderer::font()) {
+        what_if_.start(0);
+    }
 
     /// The input of the game's steps.
     [[nodiscard]] InputSource& inputs() { return inputs_; }

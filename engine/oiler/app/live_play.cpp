@@ -170,7 +170,15 @@ void LivePlay::restart() {
     past_.forget(restarted_at_);
 }
 
+/// Begins with the second frame: the copies that play along would delay the first one. No step was
+/// taken before.
+void LivePlay::begin_measuring() {
+    if (std::exchange(has_shown_, true) && what_if_ && !what_if_->has_begun())
+        what_if_->start(playback_.steps());
+}
+
 Picture& LivePlay::play(std::chrono::nanoseconds time) {
+    begin_measuring();
     const bool goes_back = past_.goes_back();
     run_.live.queue.set_paused(clock_.is_paused() || goes_back);
     const std::int64_t due = clock_.advance(time);

@@ -129,6 +129,7 @@ public:
 
 private:
     [[nodiscard]] Picture& next_picture();
+    void begin_measuring();
     void restart();
     void restart_with(const Stepping& stepping);
     void change_until(std::int64_t step);
@@ -143,6 +144,7 @@ private:
     GameClock clock_;
     std::optional<LiveWhatIf> what_if_;
     std::optional<InputTap> tap_;  ///< of what_if_
+    bool has_shown_ = false;       ///< a frame
     WayBack past_;
     PendingSetting change_;
     std::optional<std::int64_t> seeked_;  ///< the step that the time line shows in this frame

@@ -271,7 +271,8 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     const World& world = game->world();
     world.require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
-    for (const std::string& line : world.preflight()) remark(options.quiet, "{}", line);
+    if (!options.quiet)
+        for (const std::string& line : world.preflight()) remark(false, "{}", line);
     announce_steps(options, about, world);
     RunReport report{.scene = about.name, .first = world.energy()};
     TraceWriter trace(options.trace, options.energy, world);

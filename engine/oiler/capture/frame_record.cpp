@@ -2,6 +2,8 @@
 #include "oiler/capture/frame_record.hpp"
 
 #include <libdeflate.h>
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <new>
@@ -22,7 +24,11 @@ Json json_of(Point point) { return Json::array({point.x, point.y}); }
 
 Json json_of(Colour colour) { return Json::array({colour.r, colour.g, colour.b, colour.a}); }
 
-const char* name_of(Space space) { return space == Space::world ? "world" : "canvas"; }
+/// In the order of their values.
+constexpr std::array space_names{"world",       "canvas",     "upper_left", "top",
+                                 "upper_right", "lower_left", "bottom",     "lower_right"};
+
+const char* name_of(Space space) { return space_names[static_cast<std::size_t>(space)]; }
 
 Json json_of(const ElementKey& key) { return Json::array({key.object, key.part, key.jump}); }
 
@@ -132,7 +138,11 @@ Point to_point(const Parsed& json) { return {to_number(json.at(0)), to_number(js
 
 Colour to_colour(const Parsed& json) { return {json.at(0), json.at(1), json.at(2), json.at(3)}; }
 
-Space to_space(const Parsed& json) { return json == "world" ? Space::world : Space::canvas; }
+Space to_space(const Parsed& json) {
+    const auto found = std::ranges::find(space_names, json.get<std::string_view>());
+    return found == space_names.end() ? Space::canvas
+                                      : static_cast<Space>(found - space_names.begin());
+}
 
 std::vector<Point> to_points(const Parsed& json) {
     std::vector<Point> points;

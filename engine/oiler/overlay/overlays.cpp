@@ -43,9 +43,10 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
 constexpr float least_game_pixels = 9;  // of a font of a game
 
 /// The width that a label can take before the edge of an area cuts it, units of the canvas.
-float room_of(const Label& label, const OverlayArea& area) {
-    const float left = label.at.x - area.low.x;
-    const float right = area.high.x - label.at.x;
+float room_of(const Label& label, const OverlayArea& area, bool has_bars) {
+    const float moved = has_bars ? 0 : side_of(label.space).x * -area.low.x;
+    const float left = label.at.x + moved - area.low.x;
+    const float right = area.high.x - label.at.x - moved;
     if (label.align == Align::left) return right;
     return label.align == Align::right ? left : 2 * std::min(left, right);
 }
@@ -198,8 +199,8 @@ void keep_legible(Picture& picture, const OverlayArea& area) {
     for (Label& label : picture.labels) {
         if (label.size_in != Space::canvas) continue;
         float most = std::min(2 * label.size, least_game_pixels / area.pixels);
-        if (label.space == Space::canvas)
-            most = std::min(most, room_of(label, area) / overlay_letter_width /
+        if (label.space != Space::world)
+            most = std::min(most, room_of(label, area, picture.has_bars) / overlay_letter_width /
                                       static_cast<float>(label.text.size() + 1));
         label.size = std::max(label.size, most);
     }

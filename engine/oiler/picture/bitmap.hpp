@@ -28,7 +28,10 @@ struct Bitmap {
 [[nodiscard]] std::shared_ptr<const Bitmap> decode_bitmap(std::span<const std::byte> file,
                                                           std::string_view name);
 
-/// Reads a PNG or JPEG file. Throws Error{usage}, or Error{io} if the machine cannot read it.
-[[nodiscard]] std::shared_ptr<const Bitmap> load_bitmap(const std::string& path);
+/// Reads a PNG or JPEG file. A relative path is looked for beside the program, then beside the
+/// source file that calls this, then in the working directory. Throws Error{usage}, or Error{io} if
+/// the machine cannot read it.
+[[nodiscard]] std::shared_ptr<const Bitmap> load_bitmap(const std::string& path,
+                                                        const char* source = __builtin_FILE());
 
 }  // namespace oiler

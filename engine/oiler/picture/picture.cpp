@@ -206,6 +206,27 @@ void require_part(const Sprite& sprite) {
 
 }  // namespace
 
+Point side_of(Space space) {
+    switch (space) {
+        case Space::upper_left:
+            return {-1, 1};
+        case Space::top:
+            return {0, 1};
+        case Space::upper_right:
+            return {1, 1};
+        case Space::lower_left:
+            return {-1, -1};
+        case Space::bottom:
+            return {0, -1};
+        case Space::lower_right:
+            return {1, -1};
+        case Space::world:
+        case Space::canvas:
+            break;
+    }
+    return {};
+}
+
 Point Camera::to_canvas(Point world) const {
     const float units_per_metre = canvas_height / height;
     return {canvas_width / 2 + (world.x - centre.x) * units_per_metre,

@@ -40,7 +40,20 @@ inline constexpr float canvas_height = 360;
 enum class Space : std::uint8_t {
     world,   ///< metres, shown by the picture's camera
     canvas,  ///< units of the canvas
+    // The canvas, moved to a corner or an edge of the frame: a score stays in its corner, whatever
+    // the shape of the window. A picture with bars has nothing beside its canvas, so there it
+    // stays.
+    upper_left,
+    top,
+    upper_right,
+    lower_left,
+    bottom,
+    lower_right,
 };
+
+/// The side of the frame that a space holds to, from −1 (left, bottom) to 1 along each axis; 0: the
+/// middle.
+[[nodiscard]] Point side_of(Space space);
 
 /// Matches the elements of two successive pictures for interpolation. An element without an object
 /// (0) has no match and jumps. A teleported body changes `jump`, so that it does not streak across

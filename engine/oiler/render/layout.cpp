@@ -17,16 +17,21 @@ constexpr int largest_em = 512;
 /// Maps a picture's spaces to the pixels of a frame, with the lower left corner at (0, 0).
 class Mapping {
 public:
-    Mapping(const Camera& camera, Size frame)
-        : camera_(camera),
+    Mapping(const Picture& picture, Size frame)
+        : camera_(picture.camera),
           middle_{static_cast<float>(frame.width) / 2, static_cast<float>(frame.height) / 2},
           scale_(std::min(static_cast<float>(frame.width) / canvas_width,
-                          static_cast<float>(frame.height) / canvas_height)) {}
+                          static_cast<float>(frame.height) / canvas_height)) {
+        if (!picture.has_bars)
+            beside_ = {middle_.x - canvas_width / 2 * scale_,
+                       middle_.y - canvas_height / 2 * scale_};
+    }
 
     [[nodiscard]] Point pixel(Point p, Space space) const {
         const Point canvas = space == Space::world ? camera_.to_canvas(p) : p;
-        return {middle_.x + (canvas.x - canvas_width / 2) * scale_,
-                middle_.y + (canvas.y - canvas_height / 2) * scale_};
+        const Point side = side_of(space);
+        return {middle_.x + (canvas.x - canvas_width / 2) * scale_ + side.x * beside_.x,
+                middle_.y + (canvas.y - canvas_height / 2) * scale_ + side.y * beside_.y};
     }
 
     [[nodiscard]] float pixels(float length, Space space) const {
@@ -38,6 +43,7 @@ private:
     Camera camera_;
     Point middle_;
     float scale_;
+    Point beside_{};  ///< pixels of the frame on each side of the canvas, where corners move to
 };
 
 std::vector<Point> pixels_of(const std::vector<Point>& points, Space space,
@@ -68,7 +74,7 @@ bool runs_along_axes(const Polyline& line) {
 /// Curves may be flat too, but have more points.
 void snap(const Polyline& line, float width, std::vector<Point>& points) {
     constexpr std::size_t most_corners = 5;
-    if (line.space != Space::canvas || points.size() > most_corners || !runs_along_axes(line))
+    if (line.space == Space::world || points.size() > most_corners || !runs_along_axes(line))
         return;
     const bool odd = std::lround(std::clamp(width, 1.0F, 1e3F)) % 2 != 0;
     for (Point& p : points) {
@@ -176,7 +182,7 @@ std::vector<int> layers_of(const Picture& picture) {
 }
 
 void lay_out(const Picture& picture, int layer, Size frame, Glyphs& glyphs, Layout& layout) {
-    const Mapping mapping(picture.camera, frame);
+    const Mapping mapping(picture, frame);
     layout.sprites.clear();
     layout.bitmaps.clear();
     layout.lines.clear();

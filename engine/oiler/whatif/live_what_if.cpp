@@ -17,7 +17,6 @@ LiveWhatIf::LiveWhatIf(RecordedPlay play, const MakeGame& make, Pace pace)
     play_.settings.threads = 1;
     try {
         if (pace == Pace::aside) aside_ = std::make_unique<Aside>();
-        start(0);
     } catch (const std::system_error&) {
         stop("The machine gives no thread to measure the timestep's error.");
     }
@@ -55,6 +54,7 @@ void LiveWhatIf::start_from(const AnyGame& game, std::int64_t first) {
 void LiveWhatIf::measure(std::int64_t first, AlongFrom from) {
     first_ = first;
     before_ = {};
+    has_begun_ = true;
     is_measuring_ = pace_ == Pace::own || aside_;
     if (aside_) {
         aside_->begin(std::move(from));

@@ -20,11 +20,13 @@ public:
     /// with all the time that it needs.
     enum class Pace { aside, own };
 
-    /// `play` has the game's settings and controls. `make` is called by the other thread, too.
+    /// Measures nothing before a start. `play` has the game's settings and controls. `make` is
+    /// called by the other thread, too.
     LiveWhatIf(RecordedPlay play, const MakeGame& make, Pace pace = Pace::aside);
     LiveWhatIf(const LiveWhatIf&) = delete;
     LiveWhatIf& operator=(const LiveWhatIf&) = delete;
 
+    [[nodiscard]] bool has_begun() const { return has_begun_; }
     /// Begins with a new game, before its step `first`.
     void start(std::int64_t first);
     /// Begins with a new game and another setting.
@@ -59,6 +61,7 @@ private:
     const MakeGame& make_;
     Pace pace_;
     RecordedPlay play_;  ///< without events
+    bool has_begun_ = false;
     bool is_measuring_ = false;
     std::int64_t first_ = 0;
     Input before_{};

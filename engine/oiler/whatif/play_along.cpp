@@ -28,8 +28,13 @@ bool has_input(const Recording& recording) {
 PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
     : play_(std::move(from.play)), is_start_(from.is_start) {
     play_.recording.header.stepping = play_.settings.stepping;
-    const bool is_same_round = from.may_repeat && before && before->runs_ && before->is_start_ &&
-                               !has_input(before->play_.recording);
+    const bool is_repeated = from.may_repeat && before && before->is_start_;
+    if (is_repeated && before->is_too_large_) {
+        is_too_large_ = true;
+        figures_ = before->figures_;
+        return;
+    }
+    const bool is_same_round = is_repeated && before->runs_ && !has_input(before->play_.recording);
     if (is_same_round) before->judge();
     if (is_same_round && before->figures_.measured) {
         figures_ = before->figures_;
@@ -41,7 +46,8 @@ PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
     try {
         const std::unique_ptr<AnyGame> game = from.make(play_.settings);
         begin(*game);
-        if (game->world().body_count() > most_measured_bodies)
+        is_too_large_ = game->world().body_count() > most_measured_bodies;
+        if (is_too_large_)
             stop("");
         else
             runs_.emplace(play_, other_settings(from.make), from.make);

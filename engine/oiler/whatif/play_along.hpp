@@ -82,6 +82,7 @@ private:
     RecordedPlay play_;  ///< its recording grows
     bool is_start_;
     std::optional<WhatIfRuns> runs_;  ///< empty: measuring has stopped
+    bool is_too_large_ = false;       ///< the game, to be measured
     std::int64_t judged_ = 0;         ///< the steps that the verdict judges
     std::vector<Reading> readings_;   ///< at the last verdict
     LiveFigures figures_;
