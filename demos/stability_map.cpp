@@ -24,6 +24,7 @@ constexpr Axis across{"frequency", Key::left, Key::right, Stick::left_x};
 constexpr Axis upwards{"damping", Key::down, Key::up, Stick::left_y};
 
 constexpr int columns = 100, rows = 71;  // of the map
+constexpr int fine = 4;                  // texels of a column or a row
 constexpr double column_width = 0.032;   // of ω·dt
 constexpr double row_height = 0.02;      // of ζ
 constexpr double widest = columns * column_width, most_damped = (rows - 1) * row_height;
@@ -68,21 +69,66 @@ double true_per_period(double zeta) {
     return std::exp(-2 * std::numbers::pi * slowest);
 }
 
-Colour colour_of(const StepMatrix& step, double omega_dt) {
-    const double left = per_period(step, omega_dt);
-    if (is_stable(step)) {
-        const auto ringing = static_cast<float>(std::clamp(left / little - 0.5, 0.0, 1.0));
-        return palette::mix(rests, rings, ringing);
-    }
-    const double growth = std::min(1.0, 0.4 + std::log10(left) / 4);
-    return palette::mix(palette::paper, palette::vermilion, static_cast<float>(growth));
+/// A spring of the map.
+struct Spot {
+    float growth;  // of the amplitude in a period, as a power of 10
+    bool explodes;
+};
+
+Spot spot_of(const StepMatrix& step, double omega_dt) {
+    const double growth = std::log10(per_period(step, omega_dt));
+    return {static_cast<float>(std::clamp(growth, -30.0, 30.0)), !is_stable(step)};
 }
 
 /// The map of a method.
 struct Map {
+    std::vector<Spot> spots;  // row by row from the lowest
     std::shared_ptr<const Bitmap> bitmap;
-    std::array<double, rows> limits{};  ///< ω·dt of the border
+    std::array<double, rows> limits{};  // ω·dt of the border
 };
+
+/// The colour of a place of the map, in columns and rows from the lowest spring.
+Colour colour_at(const Map& map, float x, float y) {
+    const int column = std::min(static_cast<int>(x), columns - 2);
+    const int row = std::min(static_cast<int>(y), rows - 2);
+    const float right = x - static_cast<float>(column), up = y - static_cast<float>(row);
+    const auto spot = [&](int i, int j) {
+        return map.spots[static_cast<std::size_t>((row + j) * columns + column + i)];
+    };
+    const float growth = std::lerp(std::lerp(spot(0, 0).growth, spot(1, 0).growth, right),
+                                   std::lerp(spot(0, 1).growth, spot(1, 1).growth, right), up);
+    const double beyond = column_width * (double{x} + 1) -
+                          std::lerp(map.limits[static_cast<std::size_t>(row)],
+                                    map.limits[static_cast<std::size_t>(row + 1)], double{up});
+    const bool explodes = std::abs(beyond) < column_width
+                              ? beyond > 0
+                              : spot(right > 0.5F ? 1 : 0, up > 0.5F ? 1 : 0).explodes;
+    if (!explodes) return growth > std::log10(little) ? rings : rests;
+    return palette::mix(palette::paper, palette::vermilion,
+                        std::clamp(0.4F + growth / 4, 0.4F, 1.0F));
+}
+
+/// Borders are smooth: a texel has the mean colour of several places.
+std::shared_ptr<const Bitmap> draw(const Map& map) {
+    constexpr int samples = 3, width = columns * fine, height = rows * fine;
+    const auto place = [](int texel, int sample, int most) {
+        const float at = static_cast<float>(samples * texel + sample) + 0.5F;
+        return std::clamp(at / (samples * fine) - 0.5F, 0.0F, static_cast<float>(most - 1));
+    };
+    std::vector<std::uint8_t> texels;
+    for (int texel = 0; texel < width * height; ++texel) {
+        std::array<int, 3> sum{};
+        for (int i = 0; i < samples * samples; ++i) {
+            const Colour one = colour_at(map, place(texel % width, i % samples, columns),
+                                         place(height - 1 - texel / width, i / samples, rows));
+            sum[0] += one.r, sum[1] += one.g, sum[2] += one.b;
+        }
+        for (const int channel : sum)
+            texels.push_back(static_cast<std::uint8_t>(channel / (samples * samples)));
+        texels.push_back(255);
+    }
+    return make_bitmap({width, height}, std::move(texels));
+}
 
 /// Measures a step of each spring of the map, and the border of each row by bisection.
 Map make_map(const Choice& choice) {
@@ -96,18 +142,13 @@ Map make_map(const Choice& choice) {
     const std::vector<StepMatrix> measured = measure(springs);
 
     Map map;
-    std::vector<std::uint8_t> texels;
-    for (int row = rows - 1; row >= 0; --row) {
+    for (int row = 0; row < rows; ++row) {
         const auto first = measured.begin() + row * columns;
-        for (int column = 1; column <= columns; ++column) {
-            const Colour colour = colour_of(first[column - 1], column * column_width);
-            texels.insert(texels.end(), {colour.r, colour.g, colour.b, colour.a});
-        }
+        for (int column = 1; column <= columns; ++column)
+            map.spots.push_back(spot_of(first[column - 1], column * column_width));
         const auto stable = std::find_if_not(first, first + columns, is_stable) - first;
         map.limits[static_cast<std::size_t>(row)] = static_cast<double>(stable) * column_width;
     }
-    map.bitmap = make_bitmap({columns, rows}, std::move(texels));
-
     for (double width = column_width / 2; width > 1e-6; width /= 2) {
         springs.clear();
         for (std::size_t row = 0; row < rows; ++row)
@@ -117,6 +158,7 @@ Map make_map(const Choice& choice) {
         for (std::size_t row = 0; row < rows; ++row)
             if (is_stable(tried[row])) map.limits[row] += width;
     }
+    map.bitmap = draw(map);
     return map;
 }
 
