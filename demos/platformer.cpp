@@ -32,7 +32,7 @@ constexpr std::array coins{Vec3{-6.3, 1.5}, Vec3{-10.5, 8.3}, Vec3{2.5, 4.4}, Ve
 struct Platformer {
     static constexpr Control controls[] = {walk, jump, drop, grab};
     static constexpr About about{.name = "platformer",
-                                 .title = "A platform character",
+                                 .title = "Platformer: seven coins, a lift and a rope",
                                  .rate = 120,
                                  .method = "velocity_verlet",
                                  .duration = 15,
