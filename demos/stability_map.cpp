@@ -61,9 +61,10 @@ Oscillation oscillation(double omega_dt, double zeta) {
 }
 
 /// The factor on the amplitude in one period of the undamped spring.
-double per_period(const StepMatrix& step, double omega_dt) {
-    return std::pow(static_cast<double>(spectral_radius(step)), 2 * std::numbers::pi / omega_dt);
+double per_period(double radius, double omega_dt) {
+    return std::pow(radius, 2 * std::numbers::pi / omega_dt);
 }
+double radius_of(const StepMatrix& step) { return static_cast<double>(spectral_radius(step)); }
 double true_per_period(double zeta) {
     const double slowest = zeta < 1 ? zeta : zeta - std::sqrt(zeta * zeta - 1);
     return std::exp(-2 * std::numbers::pi * slowest);
@@ -71,14 +72,9 @@ double true_per_period(double zeta) {
 
 /// A spring of the map.
 struct Spot {
-    float growth;  // of the amplitude in a period, as a power of 10
+    double radius;  // spectral, of a step
     bool explodes;
 };
-
-Spot spot_of(const StepMatrix& step, double omega_dt) {
-    const double growth = std::log10(per_period(step, omega_dt));
-    return {static_cast<float>(std::clamp(growth, -30.0, 30.0)), !is_stable(step)};
-}
 
 /// The map of a method.
 struct Map {
@@ -88,32 +84,33 @@ struct Map {
 };
 
 /// The colour of a place of the map, in columns and rows from the lowest spring.
-Colour colour_at(const Map& map, float x, float y) {
+Colour colour_at(const Map& map, double x, double y) {
     const int column = std::min(static_cast<int>(x), columns - 2);
     const int row = std::min(static_cast<int>(y), rows - 2);
-    const float right = x - static_cast<float>(column), up = y - static_cast<float>(row);
+    const double right = x - column, up = y - row;
     const auto spot = [&](int i, int j) {
         return map.spots[static_cast<std::size_t>((row + j) * columns + column + i)];
     };
-    const float growth = std::lerp(std::lerp(spot(0, 0).growth, spot(1, 0).growth, right),
-                                   std::lerp(spot(0, 1).growth, spot(1, 1).growth, right), up);
-    const double beyond = column_width * (double{x} + 1) -
-                          std::lerp(map.limits[static_cast<std::size_t>(row)],
-                                    map.limits[static_cast<std::size_t>(row + 1)], double{up});
+    const double radius = std::lerp(std::lerp(spot(0, 0).radius, spot(1, 0).radius, right),
+                                    std::lerp(spot(0, 1).radius, spot(1, 1).radius, right), up);
+    const double omega_dt = column_width * (x + 1);
+    const double beyond = omega_dt - std::lerp(map.limits[static_cast<std::size_t>(row)],
+                                               map.limits[static_cast<std::size_t>(row + 1)], up);
     const bool explodes = std::abs(beyond) < column_width
                               ? beyond > 0
-                              : spot(right > 0.5F ? 1 : 0, up > 0.5F ? 1 : 0).explodes;
-    if (!explodes) return growth > std::log10(little) ? rings : rests;
+                              : spot(right > 0.5 ? 1 : 0, up > 0.5 ? 1 : 0).explodes;
+    const double left = per_period(radius, omega_dt);
+    if (!explodes) return left > little ? rings : rests;
     return palette::mix(palette::paper, palette::vermilion,
-                        std::clamp(0.4F + growth / 4, 0.4F, 1.0F));
+                        static_cast<float>(std::clamp(0.4 + std::log10(left) / 4, 0.4, 1.0)));
 }
 
 /// Borders are smooth: a texel has the mean colour of several places.
 std::shared_ptr<const Bitmap> draw(const Map& map) {
     constexpr int samples = 3, width = columns * fine, height = rows * fine;
     const auto place = [](int texel, int sample, int most) {
-        const float at = static_cast<float>(samples * texel + sample) + 0.5F;
-        return std::clamp(at / (samples * fine) - 0.5F, 0.0F, static_cast<float>(most - 1));
+        const double at = (samples * texel + sample + 0.5) / (samples * fine) - 0.5;
+        return std::clamp(at, 0.0, most - 1.0);
     };
     std::vector<std::uint8_t> texels;
     for (int texel = 0; texel < width * height; ++texel) {
@@ -145,7 +142,7 @@ Map make_map(const Choice& choice) {
     for (int row = 0; row < rows; ++row) {
         const auto first = measured.begin() + row * columns;
         for (int column = 1; column <= columns; ++column)
-            map.spots.push_back(spot_of(first[column - 1], column * column_width));
+            map.spots.push_back({radius_of(first[column - 1]), !is_stable(first[column - 1])});
         const auto stable = std::find_if_not(first, first + columns, is_stable) - first;
         map.limits[static_cast<std::size_t>(row)] = static_cast<double>(stable) * column_width;
     }
@@ -360,7 +357,7 @@ struct StabilityMap {
         const Oscillation spring = oscillation(omega_dt(), zeta());
         const StepMatrix step =
             step_matrices(*choice().method, choice().damping, std::span(&spring, 1)).front();
-        const double left = per_period(step, omega_dt());
+        const double left = per_period(radius_of(step), omega_dt());
         if (is_stable(step))
             text(picture, {352, 332}, 14,
                  fmt::format("{}: {:.0f} % left after a period", left < little ? "rests" : "rings",
@@ -368,9 +365,7 @@ struct StabilityMap {
                  palette::blue);
         else
             text(picture, {352, 332}, 14,
-                 fmt::format("explodes: × {:.3g} per step",
-                             static_cast<double>(spectral_radius(step))),
-                 palette::vermilion);
+                 fmt::format("explodes: × {:.3g} per step", radius_of(step)), palette::vermilion);
         text(picture, {352, 146}, 9,
              fmt::format("ω·dt = {:.2f} at {} Hz, ζ = {:.2f}: truly, {:.0f} % is left.", omega_dt(),
                          rate().steps, zeta(), 100 * true_per_period(zeta())));

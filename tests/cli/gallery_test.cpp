@@ -14,7 +14,9 @@ namespace fs = std::filesystem;
 using cli::Gallery;
 
 bool overlap(const Gallery::Card& a, const Gallery::Card& b) {
-    return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
+    constexpr float rounding = 1e-3F;
+    return a.low.x < b.high.x - rounding && b.low.x < a.high.x - rounding &&
+           a.low.y < b.high.y - rounding && b.low.y < a.high.y - rounding;
 }
 
 TEST(Gallery, CardsAreOnTheCanvasAndApart) {

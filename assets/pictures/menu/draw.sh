@@ -32,10 +32,10 @@ demo bounce 200
 demo projectile 130
 demo spring_damper 200
 demo hello 17
-scene article_spring 80
-scene article_spring_undamped 30
+scene article_spring 280
+scene article_spring_undamped 290
 scene bouncing_ball 170
-scene chain 100
+scene chain 480
 scene cloth 200
 scene drive 600
 scene free_cloth 60
