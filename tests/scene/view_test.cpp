@@ -162,8 +162,8 @@ TEST(View, WithOneAxisThePastMovesDown) {
 TEST(View, TrailsOfManyBodiesHaveFewPoints) {
     std::string bodies;
     for (int i = 0; i < 3000; ++i) bodies += "[[body]]\n";
-    Played run(scene_of(bodies + "[view]\ntrails = 2.0\n"));
-    run.step(100);
+    Played run(scene_of(bodies + "[view]\ntrails = 20.0\n"));
+    run.step(200);
     std::size_t points = 0;
     for (const Polyline& line : run.picture().polylines) points += line.points.size();
     EXPECT_LT(points, 100'000U);
@@ -177,6 +177,9 @@ TEST(View, BodiesHaveTheColoursOfTheirSpeeds) {
     EXPECT_EQ(picture.discs.at(1).colour, palette::orange) << "the end of the scale";
     EXPECT_EQ(picture.discs.at(2).colour, palette::orange) << "beyond it";
     EXPECT_EQ(picture.labels.back().text, "0 to 2 m/s");
+    const Picture wider = Played(scene_of("[view]\nfastest = 4.0\n")).picture();
+    EXPECT_EQ(wider.discs.at(0).colour, palette::mix(palette::blue, palette::purple, 0.5F));
+    EXPECT_EQ(wider.discs.at(2).colour, palette::mix(palette::purple, palette::orange, 0.5F));
 }
 
 TEST(View, TextIsReadableOnADarkBackground) {
