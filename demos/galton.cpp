@@ -46,7 +46,7 @@ struct Drop {
 
 struct Galton {
     static constexpr About about{.name = "galton",
-                                 .title = "A Galton board",
+                                 .title = "A Galton board: do 200 balls follow the bell?",
                                  .rate = 120,
                                  .method = "velocity_verlet",
                                  .duration = 32};

@@ -2,7 +2,7 @@
 #include "oiler/oiler.hpp"
 using namespace oiler;
 
-struct Hello {  // a mass on a spring; Space kicks it
+struct Hello {  // Space kicks a mass on a spring
     static constexpr About about{.name = "hello", .title = "Hello, Oiler", .rate = 60};
     World world;
     Entity mass = world.spawn(Body{.position = {2}}, Spring{.stiffness = 40, .damping = 0.8});
@@ -15,9 +15,10 @@ struct Hello {  // a mass on a spring; Space kicks it
         const ElementKey key = key_of(world, mass);
         const Point at = to_point(world.position(mass));
         return {.camera = {.height = 6},
-                .polylines = {{key, coil({-5, 0}, at, 14, 0.3F), 2, palette::grey}},
-                .discs = {{key, at, 0.5F, palette::blue}},
-                .labels = {{{}, {12, 12}, "Space kicks, F3 pauses, Escape quits"}}};
+                .polygons = {{{}, rectangle({0, -11}, {40, 20}), palette::pale}},
+                .polylines = {{key, coil({-5, 0}, at, 14, 0.6F), 3, palette::grey}},
+                .discs = {{key, at, 1, palette::blue}},
+                .labels = {{{}, {12, 12}, "Space kicks, F3 pauses, Escape quits", 16}}};
     }
 };
 

@@ -113,7 +113,7 @@ float place_of(std::size_t rate) {
 struct IntegratorRace {
     static constexpr Control controls[] = {slower, faster, grab};
     static constexpr About about{.name = "integrator_race",
-                                 .title = "Six methods race the exact motion",
+                                 .title = "Six methods: which gain energy, which lose it?",
                                  .rate = 240,
                                  .duration = duration,
                                  .controls = controls,

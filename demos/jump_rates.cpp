@@ -104,7 +104,7 @@ struct Lane {
 struct JumpRates {
     static constexpr Control controls[] = {walk, jump};
     static constexpr About about{.name = "jump_rates",
-                                 .title = "The same jump at five rates",
+                                 .title = "The same jump at five rates: which reach the ledge?",
                                  .rate = 240,
                                  .duration = show,
                                  .controls = controls,

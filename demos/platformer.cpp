@@ -32,7 +32,7 @@ constexpr std::array coins{Vec3{-6.3, 1.5}, Vec3{-10.5, 8.3}, Vec3{2.5, 4.4}, Ve
 struct Platformer {
     static constexpr Control controls[] = {walk, jump, drop, grab};
     static constexpr About about{.name = "platformer",
-                                 .title = "A platform character",
+                                 .title = "Platformer: seven coins, a lift and a rope",
                                  .rate = 120,
                                  .method = "velocity_verlet",
                                  .duration = 15,
@@ -124,7 +124,8 @@ struct Platformer {
         picture.background = palette::pale;
         std::vector<Point> air;
         for (const Vec3& point : ground) air.push_back(to_point(point));
-        picture.polygons.push_back({.points = air, .colour = palette::paper, .layer = -1});
+        const Colour sky = palette::mix(palette::paper, palette::sky_blue, 0.2F);
+        picture.polygons.push_back({.points = air, .colour = sky, .layer = -1});
         for (std::size_t i = 0; i < coins.size(); ++i)
             if (!has[i])
                 picture.discs.push_back({{}, to_point(coins[i]), 0.25F, palette::vermilion});

@@ -72,7 +72,8 @@ void extend(Trail& trail, Point at, bool landed) {
 }  // namespace
 
 struct Projectile {
-    static constexpr About about{.name = "projectile", .title = "Projectiles", .rate = 60};
+    static constexpr About about{
+        .name = "projectile", .title = "Which drag shortens a shot most?", .rate = 60};
 
     World world;
     std::mt19937_64 random;

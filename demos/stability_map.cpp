@@ -24,6 +24,7 @@ constexpr Axis across{"frequency", Key::left, Key::right, Stick::left_x};
 constexpr Axis upwards{"damping", Key::down, Key::up, Stick::left_y};
 
 constexpr int columns = 100, rows = 71;  // of the map
+constexpr int fine = 4;                  // texels of a column or a row
 constexpr double column_width = 0.032;   // of ω·dt
 constexpr double row_height = 0.02;      // of ζ
 constexpr double widest = columns * column_width, most_damped = (rows - 1) * row_height;
@@ -60,29 +61,71 @@ Oscillation oscillation(double omega_dt, double zeta) {
 }
 
 /// The factor on the amplitude in one period of the undamped spring.
-double per_period(const StepMatrix& step, double omega_dt) {
-    return std::pow(static_cast<double>(spectral_radius(step)), 2 * std::numbers::pi / omega_dt);
+double per_period(double radius, double omega_dt) {
+    return std::pow(radius, 2 * std::numbers::pi / omega_dt);
 }
+double radius_of(const StepMatrix& step) { return static_cast<double>(spectral_radius(step)); }
 double true_per_period(double zeta) {
     const double slowest = zeta < 1 ? zeta : zeta - std::sqrt(zeta * zeta - 1);
     return std::exp(-2 * std::numbers::pi * slowest);
 }
 
-Colour colour_of(const StepMatrix& step, double omega_dt) {
-    const double left = per_period(step, omega_dt);
-    if (is_stable(step)) {
-        const auto ringing = static_cast<float>(std::clamp(left / little - 0.5, 0.0, 1.0));
-        return palette::mix(rests, rings, ringing);
-    }
-    const double growth = std::min(1.0, 0.4 + std::log10(left) / 4);
-    return palette::mix(palette::paper, palette::vermilion, static_cast<float>(growth));
-}
+/// A spring of the map.
+struct Spot {
+    double radius;  // spectral, of a step
+    bool explodes;
+};
 
 /// The map of a method.
 struct Map {
+    std::vector<Spot> spots;  // row by row from the lowest
     std::shared_ptr<const Bitmap> bitmap;
-    std::array<double, rows> limits{};  ///< ω·dt of the border
+    std::array<double, rows> limits{};  // ω·dt of the border
 };
+
+/// The colour of a place of the map, in columns and rows from the lowest spring.
+Colour colour_at(const Map& map, double x, double y) {
+    const int column = std::min(static_cast<int>(x), columns - 2);
+    const int row = std::min(static_cast<int>(y), rows - 2);
+    const double right = x - column, up = y - row;
+    const auto spot = [&](int i, int j) {
+        return map.spots[static_cast<std::size_t>((row + j) * columns + column + i)];
+    };
+    const double radius = std::lerp(std::lerp(spot(0, 0).radius, spot(1, 0).radius, right),
+                                    std::lerp(spot(0, 1).radius, spot(1, 1).radius, right), up);
+    const double omega_dt = column_width * (x + 1);
+    const double beyond = omega_dt - std::lerp(map.limits[static_cast<std::size_t>(row)],
+                                               map.limits[static_cast<std::size_t>(row + 1)], up);
+    const bool explodes = std::abs(beyond) < column_width
+                              ? beyond > 0
+                              : spot(right > 0.5 ? 1 : 0, up > 0.5 ? 1 : 0).explodes;
+    const double left = per_period(radius, omega_dt);
+    if (!explodes) return left > little ? rings : rests;
+    return palette::mix(palette::paper, palette::vermilion,
+                        static_cast<float>(std::clamp(0.4 + std::log10(left) / 4, 0.4, 1.0)));
+}
+
+/// Borders are smooth: a texel has the mean colour of several places.
+std::shared_ptr<const Bitmap> draw(const Map& map) {
+    constexpr int samples = 3, width = columns * fine, height = rows * fine;
+    const auto place = [](int texel, int sample, int most) {
+        const double at = (samples * texel + sample + 0.5) / (samples * fine) - 0.5;
+        return std::clamp(at, 0.0, most - 1.0);
+    };
+    std::vector<std::uint8_t> texels;
+    for (int texel = 0; texel < width * height; ++texel) {
+        std::array<int, 3> sum{};
+        for (int i = 0; i < samples * samples; ++i) {
+            const Colour one = colour_at(map, place(texel % width, i % samples, columns),
+                                         place(height - 1 - texel / width, i / samples, rows));
+            sum[0] += one.r, sum[1] += one.g, sum[2] += one.b;
+        }
+        for (const int channel : sum)
+            texels.push_back(static_cast<std::uint8_t>(channel / (samples * samples)));
+        texels.push_back(255);
+    }
+    return make_bitmap({width, height}, std::move(texels));
+}
 
 /// Measures a step of each spring of the map, and the border of each row by bisection.
 Map make_map(const Choice& choice) {
@@ -96,18 +139,13 @@ Map make_map(const Choice& choice) {
     const std::vector<StepMatrix> measured = measure(springs);
 
     Map map;
-    std::vector<std::uint8_t> texels;
-    for (int row = rows - 1; row >= 0; --row) {
+    for (int row = 0; row < rows; ++row) {
         const auto first = measured.begin() + row * columns;
-        for (int column = 1; column <= columns; ++column) {
-            const Colour colour = colour_of(first[column - 1], column * column_width);
-            texels.insert(texels.end(), {colour.r, colour.g, colour.b, colour.a});
-        }
+        for (int column = 1; column <= columns; ++column)
+            map.spots.push_back({radius_of(first[column - 1]), !is_stable(first[column - 1])});
         const auto stable = std::find_if_not(first, first + columns, is_stable) - first;
         map.limits[static_cast<std::size_t>(row)] = static_cast<double>(stable) * column_width;
     }
-    map.bitmap = make_bitmap({columns, rows}, std::move(texels));
-
     for (double width = column_width / 2; width > 1e-6; width /= 2) {
         springs.clear();
         for (std::size_t row = 0; row < rows; ++row)
@@ -117,6 +155,7 @@ Map make_map(const Choice& choice) {
         for (std::size_t row = 0; row < rows; ++row)
             if (is_stable(tried[row])) map.limits[row] += width;
     }
+    map.bitmap = draw(map);
     return map;
 }
 
@@ -318,7 +357,7 @@ struct StabilityMap {
         const Oscillation spring = oscillation(omega_dt(), zeta());
         const StepMatrix step =
             step_matrices(*choice().method, choice().damping, std::span(&spring, 1)).front();
-        const double left = per_period(step, omega_dt());
+        const double left = per_period(radius_of(step), omega_dt());
         if (is_stable(step))
             text(picture, {352, 332}, 14,
                  fmt::format("{}: {:.0f} % left after a period", left < little ? "rests" : "rings",
@@ -326,9 +365,7 @@ struct StabilityMap {
                  palette::blue);
         else
             text(picture, {352, 332}, 14,
-                 fmt::format("explodes: × {:.3g} per step",
-                             static_cast<double>(spectral_radius(step))),
-                 palette::vermilion);
+                 fmt::format("explodes: × {:.3g} per step", radius_of(step)), palette::vermilion);
         text(picture, {352, 146}, 9,
              fmt::format("ω·dt = {:.2f} at {} Hz, ζ = {:.2f}: truly, {:.0f} % is left.", omega_dt(),
                          rate().steps, zeta(), 100 * true_per_period(zeta())));

@@ -212,7 +212,8 @@ TEST(Oiler, LedgerPrintsATable) {
     const Outcome run = shell("oiler ledger --steps 60 '" + scenes + "salvo.toml'", 0);
     EXPECT_LE(lines(run.out), 40);
     EXPECT_TRUE(
-        run.out.starts_with("A salvo with and without drag\n  velocity_verlet at 60 Hz in "
+        run.out.starts_with("A salvo: no drag (blue), linear drag (green), quadratic drag "
+                            "(orange)\n  velocity_verlet at 60 Hz in "
                             "double, 2 axes, 12 bodies, 0 links, 60 steps\n"))
         << run.out;
     EXPECT_TRUE(holds(run.out,

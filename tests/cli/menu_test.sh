@@ -38,14 +38,14 @@ export DISPLAY
 menu=$!
 until_true window_focused || fail "no window"
 sleep 1
-xdotool key Down
+xdotool key Right
 sleep 0.2
 xdotool key Return
-until_true has_started second || fail "Down and Enter do not start the second game"
+until_true has_started second || fail "Right and Enter do not start the second game"
 sleep 1
 until_true window_focused || fail "the window does not come back"
 sleep 1
-xdotool mousemove 200 110 click 1  # on the first row
+xdotool mousemove 200 110 click 1  # on the first picture
 until_true has_started first || fail "a click does not start the first game"
 sleep 1
 until_true window_focused || fail "the window does not come back after a click"

@@ -249,6 +249,37 @@ TEST(SceneGame, ACopyDragsOn) {
     EXPECT_EQ(assigned.state_hash(), game.state_hash());
 }
 
+std::vector<Point> path_of(const AnyGame& game) {
+    std::vector<Point> points;
+    for (const Polyline& line : game.picture().polylines)
+        points.insert(points.end(), line.points.begin(), line.points.end());
+    return points;
+}
+
+// A ball of 2 m/s is at 4 m after 2 s; the path of the last second begins at 2 m.
+TEST(SceneGame, DrawsTrailsHoweverItIsStepped) {
+    const Scene scene = parse_scene(
+        "[scene]\naxes = 2\nduration = 100.0\n[[body]]\nvelocity = [2.0, 0.0]\n"
+        "[view]\ntrails = 1.0\n",
+        "trails.toml");
+    Hand hand;
+    SceneGame run(held(scene), at(10), false);
+    SceneGame watched(held(scene), at(10), true);
+    (void)run.step(0, 20, hand);
+    (void)watched.step(0, 20, hand);
+    ASSERT_FALSE(path_of(run).empty());
+    EXPECT_EQ(path_of(run), path_of(watched));
+    const auto [left, right] = std::ranges::minmax(path_of(run), {}, &Point::x);
+    EXPECT_NEAR(left.x, 2, 1e-6);
+    EXPECT_NEAR(right.x, 4, 1e-6);
+    const std::unique_ptr<AnyGame> copy = run.clone();
+    (void)run.step(20, 5, hand);
+    (void)copy->step(20, 5, hand);
+    EXPECT_EQ(path_of(*copy), path_of(run)) << "a window goes back to a copy";
+    run.restart();
+    for (const Point& point : path_of(run)) EXPECT_EQ(point, Point{});
+}
+
 namespace fs = std::filesystem;
 
 using cli::SceneGame;

@@ -134,9 +134,9 @@ const std::vector<Refusal> refusals{
      no_lines},
     {words_of_colour,
      "body.colour spring.colour attractor.colour plane.colour grid.colour scatter.colour "
-     "obstacle.colour chain.colour tiles.colour",
+     "obstacle.colour chain.colour tiles.colour view.background",
      no_colour},
-    {"true or false", "spring.pulls_only grid.diagonals chain.closed obstacle.solid",
+    {"true or false", "spring.pulls_only grid.diagonals chain.closed obstacle.solid view.wind",
      texts({"yes"}) + Values{{"1", "1"}, {"[]", "a list of 0"}}},
     {"one of none, corners, top", "grid.hang",
      no_text + texts({"bottom"}) + with_hint("corner", "corners")},
@@ -170,7 +170,8 @@ const std::vector<Refusal> refusals{
      "body.radius attractor.radius grid.spacing grid.radius scatter.radius budget.position_error "
      "obstacle.radius tiles.tile",
      no_number + to_0},
-    {"a number above 0, in s", "obstacle.period chain.period", no_number + to_0},
+    {"a number above 0, in s", "obstacle.period chain.period view.trails", no_number + to_0},
+    {"a number above 0, in m/s", "view.fastest", no_number + to_0},
     {"a number above 0, in m³/s²", "attractor.gm", no_number + to_0},
     {"a number above 0", "budget.energy_drift", no_number + to_0},
     {"a number above 0 to 1000000000, in s", "scene.duration", no_number + to_0 + too_long},
@@ -340,6 +341,7 @@ TEST(BadKeys, MisspeltKeysAreRefusedWithTheRightOne) {
         {"scatter", "linear_drug linear_drag quadratic_drak quadratic_drag contackt contact"},
         {"scatter", "meet meets radiuss radius colur colour"},
         {"camera", "center centre hight height"},
+        {"view", "backgruond background trail trails fastes fastest winds wind"},
         {"budget", "positon_error position_error energydrift energy_drift"}};
     for (const auto& [table, words] : misspelt) {
         const std::vector<std::string> pairs = split(words);

@@ -175,6 +175,12 @@ colour = "vermilion"
 centre = [1.0, 1.0]
 height = 12.0
 
+[view]
+background = "pale"
+trails = 3.0
+fastest = 20.0
+wind = true
+
 [budget]
 position_error = 1.0
 energy_drift = 0.01

@@ -384,7 +384,7 @@ void expect_distinct_keys(const std::vector<Element>& elements) {
 }
 
 TEST(DrawScene, ShowsBodiesAttractorsAndAnchors) {
-    const Picture picture = drawn(parsed(everything));
+    const Picture picture = drawn(parsed(altered(everything, "view", "fastest", "")));
     EXPECT_EQ(picture.discs.size(), 12U + 1 + 1 + 1);
     EXPECT_TRUE(holds_disc(picture, {0.5F, 0.25F}, 0.3F, palette::orange));
     EXPECT_TRUE(holds_disc(picture, {5, 5}, 0.2F, palette::black));
@@ -437,6 +437,23 @@ TEST(DrawScene, JoinsEqualRunsOfTiles) {
     EXPECT_TRUE(holds_polygon(picture, {{9, 0}, {12, 0}, {12, 1}, {9, 1}}, palette::grey));
     EXPECT_EQ(picture.polygons.size(), 3U + 2);
     EXPECT_EQ(picture.polylines.size(), 2U);
+}
+
+// The picture is 10 m high around (0, 0); the ground is below 1 m.
+TEST(DrawScene, ShowsPlanesWithTheirGround) {
+    const Picture picture =
+        drawn(parsed("[scene]\naxes = 2\n[[body]]\n[camera]\ncentre = [0, 0]\nheight = 10\n"
+                     "[[plane]]\nnormal = [0, 2]\noffset = 2\ncolour = 'green'\n"));
+    ASSERT_EQ(picture.polygons.size(), 1U);
+    ASSERT_EQ(picture.polylines.size(), 1U);
+    EXPECT_EQ(picture.polylines[0].colour, palette::green);
+    for (const Point& end : picture.polylines[0].points) EXPECT_FLOAT_EQ(end.y, 1);
+    const auto [low, high] = std::ranges::minmax(picture.polygons[0].points, {}, &Point::y);
+    EXPECT_FLOAT_EQ(high.y, 1);
+    EXPECT_LT(low.y, -5);
+    const auto [left, right] = std::ranges::minmax(picture.polygons[0].points, {}, &Point::x);
+    EXPECT_LT(left.x, -9);
+    EXPECT_GT(right.x, 9);
 }
 
 TEST(DrawScene, ShowsTheSideFromWhichOneWayObstaclesAreMet) {

@@ -14,6 +14,7 @@
 #include "oiler/lab/sweep/judge.hpp"
 #include "oiler/overlay/follower.hpp"
 #include "oiler/picture/palette.hpp"
+#include "oiler/picture/theme.hpp"
 #include "oiler/scene/draw.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
@@ -40,16 +41,26 @@ SceneGame::SceneGame(std::shared_ptr<const Scene> scene, const Settings& setting
     : scene_(std::move(scene)),
       watched_(watched),
       world_(make_world(*scene_, settings)),
+      trails_(*scene_, world_),
       camera_(camera_of(*scene_, world_)) {}
 
 std::int64_t SceneGame::step(std::int64_t step, std::int64_t count, InputSource& inputs) {
     if (watched_)
         for (std::int64_t taken = 0; taken < count; ++taken) take_step(inputs.next(step + taken));
-    else {
-        const Stopwatch stopwatch(times_, &StepTimes::step);
-        world_.step(count);
-    }
+    else
+        take_world_steps(count);
     return count;
+}
+
+/// As many steps per call as there are up to the next sample of the trails.
+void SceneGame::take_world_steps(std::int64_t count) {
+    const Stopwatch stopwatch(times_, &StepTimes::step);
+    while (count > 0) {
+        const std::int64_t steps = std::min(count, trails_.steps_to_sample(world_));
+        world_.step(steps);
+        trails_.sample(world_);
+        count -= steps;
+    }
 }
 
 void SceneGame::take_step(const Input& input) {
@@ -58,8 +69,7 @@ void SceneGame::take_step(const Input& input) {
     places_to_go_ += input.presses(next) - input.presses(previous);
     look(input);
     drag(input);
-    const Stopwatch stopwatch(times_, &StepTimes::step);
-    world_.step();
+    take_world_steps(1);
 }
 
 void SceneGame::look(const Input& input) {
@@ -100,6 +110,7 @@ void SceneGame::drag(const Input& input) {
 
 void SceneGame::restart() {
     world_ = make_world(*scene_, Settings(world_.settings()));
+    trails_ = SceneTrails(*scene_, world_);
     drag_.reset();
     ends_ = false;
     places_to_go_ = 0;
@@ -113,6 +124,7 @@ void SceneGame::assign(const AnyGame& other) {
         held_.reset();
     }
     world_ = source.world_;
+    trails_ = source.trails_;
     places_to_go_ = source.places_to_go_;
     drag_ = source.drag_;
     ends_ = source.ends_;
@@ -120,7 +132,7 @@ void SceneGame::assign(const AnyGame& other) {
 }
 
 Picture SceneGame::picture() const {
-    Picture picture = draw_scene(*scene_, world_, camera_);
+    Picture picture = draw_scene(*scene_, world_, camera_, trails_);
     if (watched_)
         picture.labels.push_back(
             {.at = {8, 6},
@@ -128,7 +140,7 @@ Picture SceneGame::picture() const {
                  fmt::format("repeats after {:g} s; drag bodies, R restarts, [ ] change the scene",
                              scene_->duration),
              .size = 9,
-             .colour = palette::ink});
+             .colour = theme_of(picture.background).ink});
     if (drag_ && drag_->pulls)
         picture.polylines.push_back(
             {.points = {to_point(world_.position(drag_->body)), to_point(drag_->to)},

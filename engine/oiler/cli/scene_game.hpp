@@ -11,6 +11,7 @@
 #include "oiler/app/shelf.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/scene/scene.hpp"
+#include "oiler/scene/trails.hpp"
 
 namespace oiler::cli {
 
@@ -61,12 +62,14 @@ private:
     };
 
     void take_step(const Input& input);
+    void take_world_steps(std::int64_t count);
     void look(const Input& input);
     void drag(const Input& input);
 
     std::shared_ptr<const Scene> scene_;
     bool watched_;
     World world_;
+    SceneTrails trails_;
     Camera camera_;              ///< the user's; assign() keeps it
     std::optional<Point> held_;  ///< the place of the world that the right button holds
     std::optional<Drag> drag_;

@@ -32,16 +32,21 @@ struct Places {
     fs::path list;
     fs::path demos;
     fs::path scenes;
+    fs::path pictures;
+
+    [[nodiscard]] std::string picture_of(const std::string& name) const {
+        return (pictures / (name + ".png")).string();
+    }
 };
 
 Places places_of(const fs::path& program) {
     const Home home = home_of(program);
     if (home.kind == Home::Kind::source)
         return {home.folder / "demos/demos.txt", program.parent_path(),
-                home.folder / "assets/scenes"};
+                home.folder / "assets/scenes", home.folder / "assets/pictures/menu"};
     const fs::path prefix = program.parent_path().parent_path();
     return {prefix / "share/oiler/demos/demos.txt", prefix / "libexec/oiler",
-            prefix / "share/oiler/scenes"};
+            prefix / "share/oiler/scenes", prefix / "share/oiler/pictures/menu"};
 }
 
 std::string title_of(const fs::path& scene) {
@@ -64,7 +69,8 @@ void add_demos(const Places& places, std::vector<Startable>& all) {
         if (!fs::exists(program, none)) continue;
         all.push_back({.name = name,
                        .sentence = line.substr(end + separator.size()),
-                       .command = {program.string()}});
+                       .command = {program.string()},
+                       .picture = places.picture_of(name)});
     }
 }
 
@@ -73,7 +79,8 @@ void add_scenes(const Places& places, const fs::path& program, std::vector<Start
         all.push_back({.name = file.filename().string(),
                        .sentence = title_of(file),
                        .is_scene = true,
-                       .command = {program.string(), "play", file.string()}});
+                       .command = {program.string(), "play", file.string()},
+                       .picture = places.picture_of("scene_" + file.stem().string())});
 }
 
 std::vector<char*> pointers_to(std::vector<std::string>& words) {

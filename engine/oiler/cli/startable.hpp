@@ -34,6 +34,7 @@ struct Startable {
     std::string sentence;  ///< what it shows
     bool is_scene = false;
     std::vector<std::string> command{};  ///< the path of the program, and its arguments
+    std::string picture{};               ///< the path of its PNG, which may be missing
 };
 
 /// The demos and scenes of the Oiler that the program at this path belongs to, PREFIX/bin/oiler or

@@ -34,4 +34,11 @@ inline constexpr Colour paper{255, 255, 255};
     return {part(from.r, to.r), part(from.g, to.g), part(from.b, to.b), part(from.a, to.a)};
 }
 
+/// A colour of a scale from blue over purple to orange, for a share from 0 to 1. It can be told
+/// from light and from dark grounds.
+[[nodiscard]] constexpr Colour scale(float share) {
+    const float place = 2 * (share < 0 ? 0 : share > 1 ? 1 : share);
+    return place < 1 ? mix(blue, purple, place) : mix(purple, orange, place - 1);
+}
+
 }  // namespace oiler::palette

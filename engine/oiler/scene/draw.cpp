@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/theme.hpp"
+#include "oiler/scene/draw_air.hpp"
 #include "oiler/scene/draw_obstacles.hpp"
 #include "oiler/sim/bodies.hpp"
 
@@ -67,12 +69,17 @@ Box box_of(const Scene& scene, const World& world) {
 class Drawing {
 public:
     Drawing(const Scene& scene, const World& world, const Camera& camera)
-        : scene_(scene), world_(world), picture_{.camera = camera} {
+        : scene_(scene),
+          world_(world),
+          picture_{.background = scene.view.background, .camera = camera},
+          theme_(theme_of(scene.view.background)) {
         picture_.discs.reserve(world.body_count() + scene.attractors.size());
     }
 
-    Picture run() {
+    Picture run(const SceneTrails& trails) {
+        draw_air(scene_, world_.time(), picture_);
         draw_obstacles(scene_, world_, picture_);
+        trails.draw(scene_, world_, picture_);
         draw_attractors();
         draw_springs();
         for (const SceneBody& body : scene_.bodies) draw_discs(1, body.matter, large_radius);
@@ -83,6 +90,7 @@ public:
         for (const SceneScatter& scatter : scene_.scatters)
             draw_discs(scatter.count, scatter.matter, small_radius);
         draw_labels();
+        if (scene_.view.fastest) draw_scale(*scene_.view.fastest);
         return std::move(picture_);
     }
 
@@ -105,7 +113,13 @@ private:
             picture_.discs.push_back({.key = key_of(world_, row_),
                                       .centre = position_of(world_, row_),
                                       .radius = size,
-                                      .colour = matter.colour});
+                                      .colour = colour_of(row_, matter)});
+    }
+    [[nodiscard]] Colour colour_of(std::size_t row, const SceneMatter& matter) const {
+        if (!scene_.view.fastest) return matter.colour;
+        const Vec3 v = world_.bodies().velocity(row);
+        const double speed = std::sqrt(dot(v, v));
+        return palette::scale(static_cast<float>(speed / *scene_.view.fastest));
     }
 
     void draw_springs() {
@@ -117,7 +131,7 @@ private:
             const Point to = position_of(world_, spring.body);
             if (!spring.to)
                 picture_.discs.push_back(
-                    {.centre = from, .radius = radius({}, small_radius), .colour = palette::ink});
+                    {.centre = from, .radius = radius({}, small_radius), .colour = theme_.ink});
             picture_.polylines.push_back(
                 {.key = key_of(world_, spring.body, i + 1),
                  .points =
@@ -155,13 +169,32 @@ private:
     void draw_labels() {
         const std::string how =
             fmt::format("{}   t = {:.2f} s", caption(world_.settings().stepping), world_.time());
-        picture_.labels = {{.at = {12, 340}, .text = scene_.title, .colour = palette::ink},
-                           {.at = {12, 326}, .text = how, .size = 9, .colour = palette::grey}};
+        picture_.labels = {{.at = {12, 340}, .text = scene_.title, .colour = theme_.ink},
+                           {.at = {12, 326}, .text = how, .size = 9, .colour = theme_.faint}};
+    }
+
+    /// The colours of speeds, below the labels.
+    void draw_scale(double fastest) {
+        constexpr int steps = 24;
+        constexpr Point low{12, 308};
+        constexpr float width = 4, height = 8;
+        for (int i = 0; i < steps; ++i)
+            picture_.polygons.push_back(
+                {.points =
+                     rectangle({low.x + width * (static_cast<float>(i) + 0.5F), low.y + height / 2},
+                               {width, height}),
+                 .colour = palette::scale(static_cast<float>(i) / (steps - 1)),
+                 .space = Space::canvas});
+        picture_.labels.push_back({.at = {low.x + steps * width + 6, low.y + 1},
+                                   .text = fmt::format("0 to {:g} m/s", fastest),
+                                   .size = 9,
+                                   .colour = theme_.faint});
     }
 
     const Scene& scene_;
     const World& world_;
     Picture picture_;
+    const Theme& theme_;
     std::size_t row_ = 0;
 };
 
@@ -180,8 +213,9 @@ Camera camera_of(const Scene& scene, const World& world) {
     return camera;
 }
 
-Picture draw_scene(const Scene& scene, const World& world, const Camera& camera) {
-    return Drawing(scene, world, camera).run();
+Picture draw_scene(const Scene& scene, const World& world, const Camera& camera,
+                   const SceneTrails& trails) {
+    return Drawing(scene, world, camera).run(trails);
 }
 
 }  // namespace oiler

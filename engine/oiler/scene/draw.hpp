@@ -3,6 +3,7 @@
 
 #include "oiler/picture/picture.hpp"
 #include "oiler/scene/scene.hpp"
+#include "oiler/scene/trails.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {
@@ -12,7 +13,8 @@ namespace oiler {
 [[nodiscard]] Camera camera_of(const Scene& scene, const World& world);
 
 /// Draws a world that was made from the scene: bodies and attractors as discs, springs as coils,
-/// grids as nets.
-[[nodiscard]] Picture draw_scene(const Scene& scene, const World& world, const Camera& camera);
+/// grids as nets, and what the scene's view says.
+[[nodiscard]] Picture draw_scene(const Scene& scene, const World& world, const Camera& camera,
+                                 const SceneTrails& trails = {});
 
 }  // namespace oiler

@@ -52,10 +52,14 @@ private:
                        camera.centre.y + n.y * beyond / size2};
         const float size = std::sqrt(size2);
         const Point along{-n.y / size * reach, n.x / size * reach};
-        picture_.polylines.push_back(
-            {.points = {{at.x - along.x, at.y - along.y}, {at.x + along.x, at.y + along.y}},
-             .width = 2,
-             .colour = colour});
+        const Point from{at.x - along.x, at.y - along.y}, to{at.x + along.x, at.y + along.y};
+        const Point inwards{-n.x / size * reach, -n.y / size * reach};
+        picture_.polygons.push_back({.points = {from,
+                                                to,
+                                                {to.x + inwards.x, to.y + inwards.y},
+                                                {from.x + inwards.x, from.y + inwards.y}},
+                                     .colour = palette::mix(picture_.background, colour, 0.25F)});
+        picture_.polylines.push_back({.points = {from, to}, .width = 2, .colour = colour});
     }
 
     void draw_one(Colour colour) {

@@ -13,7 +13,7 @@ namespace oiler {
 }
 
 /// Adds the obstacles of the world of a scene to its picture, where they are. Planes are lines
-/// across the picture. Tiles beside each other are one polygon.
+/// across the picture, with a faded ground behind them. Tiles beside each other are one polygon.
 void draw_obstacles(const Scene& scene, const World& world, Picture& picture);
 
 }  // namespace oiler

@@ -64,6 +64,7 @@ constexpr auto known_tables = std::to_array<SceneTable>({
     {"grid", repeated},
     {"scatter", repeated},
     {"camera", once},
+    {"view", once},
     {"budget", once},
 });
 
@@ -242,6 +243,13 @@ constexpr std::array other_keys{
     SceneKey{"camera", "centre", vector, "m", any, "[0.0, 0.0]", fits, "middle of the picture"},
     SceneKey{"camera", "height", number, "m", from_to(1e-30, 1e30), "10.0", fits,
              "metres from bottom to top"},
+    SceneKey{"view", "background", colour, "", any, "\"paper\"", "", "", colour_names},
+    SceneKey{"view", "trails", number, "s", positive, "2.0", "no trails",
+             "the part of its path that follows each [[body]]; with one axis it moves down"},
+    SceneKey{"view", "fastest", number, "m/s", positive, "30.0", "bodies have their own colours",
+             "colours bodies by their speeds, from blue to orange at this one"},
+    SceneKey{"view", "wind", flag, "", any, "true", "",
+             "arrows that drift with the air, where all [[wind]] has one velocity"},
     SceneKey{"budget", "position_error", number, "m", positive, "1.0", "no limit",
              "largest error of the run, as drawn"},
     SceneKey{"budget", "energy_drift", number, "", positive, "0.01", "no limit",

@@ -86,6 +86,7 @@ public:
         each("grid", [&](const Section& section) { read_grid(section); });
         each("scatter", [&](const Section& section) { read_scatter(section); });
         each("camera", [&](const Section& section) { read_camera(section); });
+        each("view", [&](const Section& section) { read_view(section); });
         each("budget", [&](const Section& section) { read_budget(section); });
         if (scene_.body_count() == 0)
             refuse({file_, 1}, "body: missing; a scene needs a [[body]], [[grid]] or [[scatter]]");
@@ -290,6 +291,13 @@ private:
     void read_camera(const Section& section) {
         section.read("centre", scene_.camera.centre);
         section.read("height", scene_.camera.height);
+    }
+
+    void read_view(const Section& section) {
+        section.read("background", scene_.view.background);
+        section.read("trails", scene_.view.trails);
+        section.read("fastest", scene_.view.fastest);
+        section.read("wind", scene_.view.wind);
     }
 
     void read_budget(const Section& section) {

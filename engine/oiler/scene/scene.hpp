@@ -201,6 +201,15 @@ struct SceneCamera {
     friend bool operator==(const SceneCamera&, const SceneCamera&) = default;
 };
 
+/// What is drawn beside the bodies. The motion does not depend on it.
+struct SceneView {
+    Colour background = palette::paper;
+    std::optional<double> trails{};   ///< s, the part of a body's path that is drawn
+    std::optional<double> fastest{};  ///< m/s, the speed of the last colour of a scale
+    bool wind = true;
+    friend bool operator==(const SceneView&, const SceneView&) = default;
+};
+
 /// Largest errors that the scene allows.
 struct SceneBudget {
     std::optional<double> position_error{};  ///< m, largest of the run
@@ -228,6 +237,7 @@ struct Scene {
     std::vector<SceneGrid> grids{};
     std::vector<SceneScatter> scatters{};
     SceneCamera camera{};
+    SceneView view{};
     SceneBudget budget{};
     std::vector<std::string> layers{"solid"};  ///< their names, by bit
     friend bool operator==(const Scene&, const Scene&) = default;
