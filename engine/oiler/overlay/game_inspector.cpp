@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/overlay/ghosts.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/sim/bodies.hpp"
