@@ -9,6 +9,7 @@
 #include <random>
 
 #include "oiler/app/run.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
@@ -191,7 +192,7 @@ struct Projectile {
                 {.at = {456, y},
                  .text = kind.drag == Drag::quadratic
                              ? std::string(kind.name)
-                             : fmt::format("{}: error at most {:.2g} m", kind.name, error),
+                             : fmt::format("{}: error at most {}", kind.name, length_text(error)),
                  .size = 10,
                  .colour = palette::ink});
             y -= 14;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "oiler/app/run.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
@@ -172,9 +173,10 @@ struct SpringDamper {
                                   .align = Align::right});
         picture.labels.push_back(
             {.at = {16, 324},
-             .text = fmt::format("t = {:.2f} s   x = {}   exact {}   largest error {:.3g} m", now.t,
-                                 metres(now.simulated), metres(now.exact),
-                                 std::max(largest_error, std::abs(now.simulated - now.exact))),
+             .text = fmt::format(
+                 "t = {:.2f} s   x = {}   exact {}   largest error {}", now.t,
+                 metres(now.simulated), metres(now.exact),
+                 length_text(std::max(largest_error, std::abs(now.simulated - now.exact)))),
              .size = 11,
              .colour = palette::ink});
     }

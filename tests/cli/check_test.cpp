@@ -228,7 +228,7 @@ std::string diverging_scene(const std::string& budget) {
 }
 
 const std::string warning_of_the_scene =
-    "spring of body 0: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
+    "spring of body 'mass': ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
     "implicit_midpoint";
 
 TEST(Check, RunsASceneWithoutABudgetAndReportsItsDivergence) {
@@ -236,11 +236,12 @@ TEST(Check, RunsASceneWithoutABudgetAndReportsItsDivergence) {
     const Outcome run = desk.run("oiler check scene.toml --junit a.xml --json a.json", 5);
     EXPECT_TRUE(holds(run.out, "scene.toml: warning: " + warning_of_the_scene + "\n"));
     EXPECT_TRUE(holds(run.out, "scene.toml: diverged at step 563 (t = 9.38"));
+    EXPECT_TRUE(holds(run.out, " x of body 'mass' is no longer finite; "));
     EXPECT_TRUE(holds(run.out, "scene.toml: no [budget]\n"));
     const std::string xml = desk.text("a.xml");
     EXPECT_TRUE(is_well_formed(xml)) << xml;
     EXPECT_TRUE(holds(xml, "tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\""));
-    EXPECT_TRUE(holds(xml, "name=\"preflight\"><system-out>spring of body 0: "));
+    EXPECT_TRUE(holds(xml, "name=\"preflight\"><system-out>spring of body 'mass': "));
     EXPECT_TRUE(holds(xml, "name=\"run\"><failure message=\"diverged at step 563 "));
     const Json json = desk.json("a.json");
     EXPECT_EQ(json.at(0).at("kept"), false);
@@ -271,8 +272,8 @@ int tick_of_overflow() {
 
 TEST(Check, NamesTheTickAtWhichTheEnergyOverflowsAsPlayDoes) {
     const Desk desk(diverging_scene(""));
-    const std::string line =
-        "the energy is no longer finite at tick " + std::to_string(tick_of_overflow());
+    const std::string line = "the energy is no longer finite at tick " +
+                             std::to_string(tick_of_overflow()) + ": body 'mass' moves at ";
     const Outcome run = desk.run(
         "sed -i 's/duration = 10.0/duration = 5.0/' scene.toml; oiler check scene.toml", 5);
     EXPECT_TRUE(holds(run.out, "scene.toml: " + line)) << run.out;

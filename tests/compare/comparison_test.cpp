@@ -452,7 +452,7 @@ TEST_F(ComparisonOfFilms, JsonHasTheFacts) {
     EXPECT_EQ(json.at("renderer"), nullptr);
     EXPECT_EQ(json.at("counts"),
               nlohmann::json::parse(R"({"frames": 5, "equal": 2, "simulation": 1, "picture": 1,
-                                        "pixels": 1, "missing": 0})"));
+                                        "pixels": 0, "missing": 0, "tolerated": 1})"));
     EXPECT_EQ(json.at("settings")[0],
               nlohmann::json::parse(R"({"name": "seed", "golden": "0", "actual": "3"})"));
     ASSERT_EQ(json.at("frames").size(), 3U);

@@ -23,7 +23,8 @@ DATA = r"<script>const data = (.*?);</script>"
 TEMPLATE = Path(__file__).resolve().parents[2] / "engine/oiler/compare/differences.html"
 NAMES = {"=": "equal", "s": "simulation", "p": "picture", "x": "pixels beyond the tolerance",
          "~": "pixels within the tolerance", "m": "missing"}
-COUNTED = {"=": "equal", "s": "simulation", "p": "picture", "x": "pixels", "m": "missing"}
+COUNTED = {"=": "equal", "s": "simulation", "p": "picture", "x": "pixels", "~": "tolerated",
+           "m": "missing"}
 LUMINANCE = """(colour) => { const linear = colour.match(/[\\d.]+/g).slice(0, 3).map(c => c / 255)
     .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]; }"""
@@ -78,11 +79,9 @@ class Check(Viewer):
     def legend(self):
         data, texts = self.data, self.texts("#legend li")
         for letter, key in COUNTED.items():
-            if letter != "=":  # frames within the tolerance may count as equal
-                self.expect(data["counts"][key] == data["timeline"].count(letter),
-                            f"{key}: {data['counts'][key]} frames, not as the timeline")
+            self.expect(data["counts"][key] == data["timeline"].count(letter),
+                        f"{key}: {data['counts'][key]} frames, not as the timeline")
         counts = {letter: data["counts"][key] for letter, key in COUNTED.items()}
-        counts["~"] = data["timeline"].count("~")
         wanted = [f"{letter.upper()} {name}: {counts[letter]:,}" for letter, name in NAMES.items()]
         self.expect(texts == wanted, f"the legend is {texts}")
 

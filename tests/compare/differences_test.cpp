@@ -150,6 +150,38 @@ TEST_F(Differences, TextsCannotEndTheScript) {
     EXPECT_FALSE(holds(page, "</script><b>"));
 }
 
+// Frames 1 to 4: one of each cause but missing, of the pixels one that fails and one that does not.
+TEST_F(Differences, EachFrameHasOneCauseInThePageTheTextAndJunit) {
+    Film actual = film_of(5);
+    actual.shots[1].state_hash = 1;
+    actual.shots[2].picture_hash = 1;
+    actual.shots[3].rgb.assign(300, 200);
+    actual.shots[4].rgb[0] += 2;
+    const Comparison comparison = compare(film_of(5), actual);
+    write_differences(comparison, folder / "out");
+    EXPECT_EQ(data_of_page().at("counts"), (Data{{"frames", 5},
+                                                 {"equal", 1},
+                                                 {"simulation", 1},
+                                                 {"picture", 1},
+                                                 {"pixels", 1},
+                                                 {"missing", 0},
+                                                 {"tolerated", 1}}));
+    EXPECT_TRUE(holds(describe(comparison),
+                      "5 frames: 1 equal; 1 simulation; 1 picture; 1 pixels; 1 tolerated\n"))
+        << describe(comparison);
+    const std::string xml = suite_of(comparison).xml();
+    for (const char* cause : {"simulation", "picture", "pixels"})
+        EXPECT_TRUE(holds(xml, "name=\"" + std::string(cause) + "\"><failure message=\"1 of 5 "))
+            << xml;
+}
+
+TEST_F(Differences, JunitSaysHowManyFramesAreTolerated) {
+    Film actual = film_of(3);
+    actual.shots[1].rgb[0] += 2;
+    EXPECT_TRUE(holds(suite_of(compare(film_of(3), actual)).xml(),
+                      "name=\"pixels\"><system-out>1 of 3 frames differ and are tolerated<"));
+}
+
 TEST(DifferencesFolder, IsBesideTheFrames) {
     EXPECT_EQ(differences_folder("frames/spring"), "frames/spring-differences");
     EXPECT_EQ(differences_folder("frames/spring/"), "frames/spring-differences");

@@ -119,7 +119,7 @@ def pair(work):
     code, text, result = compare(*folders)
     failures.expect(code == 0, f"{command} {frames} {surroundings}: {text}")
     counts["drawn by two renderers"] += result.get("renderer") is not None
-    return "within the tolerance" if result.get("counts", {}).get("pixels") else "exact"
+    return "within the tolerance" if result.get("counts", {}).get("tolerated") else "exact"
 
 
 def pairs():

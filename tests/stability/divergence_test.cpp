@@ -177,7 +177,8 @@ TEST(DivergingNet, BlamesTheLinkWhoseSecondEndDiverges) {
     const auto at = bodies.try_step(method, steps);
     ASSERT_TRUE(at);
     const std::string line = line_of_error(Exit::diverged, [&] {
-        fail_diverged(bodies, *at, method, steps, [](std::size_t row) { return row; });
+        fail_diverged(bodies, *at, method, steps,
+                      [](std::size_t row) { return std::to_string(row); });
     });
     EXPECT_TRUE(holds(line, ": position x of body 1 is no longer finite; "));
     EXPECT_TRUE(line.ends_with("; " + link_of_2_and_1)) << line;
@@ -190,8 +191,9 @@ TEST(DivergingNet, IsWarnedOfWithBothEndsOfTheLink) {
     ASSERT_EQ(risks.size(), 2U);
     EXPECT_EQ(risks[0].row, 0U);
     EXPECT_FALSE(risks[0].linked);
-    EXPECT_EQ(describe(risks[1], method, steps, [](std::size_t row) { return row; }),
-              link_of_2_and_1);
+    EXPECT_EQ(
+        describe(risks[1], method, steps, [](std::size_t row) { return std::to_string(row); }),
+        link_of_2_and_1);
 }
 
 // explicit_euler multiplies a velocity by 1 − c·|v|·dt, which turns it from 1 on. The limit is that

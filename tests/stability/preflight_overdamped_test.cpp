@@ -28,7 +28,8 @@ std::vector<At> states_of(Bodies bodies, const Method& method, const Steps& step
 std::vector<std::string> lines_of(const Bodies& bodies, const Method& method, const Steps& steps) {
     std::vector<std::string> lines;
     for (const Risk& risk : preflight(bodies, method, steps))
-        lines.push_back(describe(risk, method, steps, [](std::size_t row) { return row; }));
+        lines.push_back(
+            describe(risk, method, steps, [](std::size_t row) { return std::to_string(row); }));
     return lines;
 }
 

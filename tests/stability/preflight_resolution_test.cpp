@@ -20,7 +20,8 @@ std::vector<std::string> lines_of(const Bodies& bodies, const char* name = "velo
     add_distortions(bodies, method, steps, risks);
     std::vector<std::string> lines;
     for (const Risk& risk : risks)
-        lines.push_back(describe(risk, method, steps, [](std::size_t row) { return row; }));
+        lines.push_back(
+            describe(risk, method, steps, [](std::size_t row) { return std::to_string(row); }));
     return lines;
 }
 

@@ -223,7 +223,7 @@ TEST(UnevenDamping, HasAWarningWithAStableRate) {
     const auto risks = preflight(bodies, method, {{30}});
     ASSERT_EQ(risks.size(), 1U);
     const std::string line =
-        describe(risks[0], method, {{30}}, [](std::size_t row) { return row; });
+        describe(risks[0], method, {{30}}, [](std::size_t row) { return std::to_string(row); });
     const int named = std::stoi(line.substr(line.find("rate ≥ ") + std::string("rate ≥ ").size()));
     EXPECT_FALSE(explodes(bodies, method, 1.0 / named, 50'000)) << line;
     EXPECT_TRUE(explodes(bodies, method, 1.05 / named, 50'000)) << line;

@@ -10,7 +10,8 @@ namespace oiler::test {
 /// Steps bodies as a world does: a divergence is thrown with its likely cause.
 inline void explained_step(Bodies& bodies, const Method& method, const Steps& steps) {
     if (const auto at = bodies.try_step(method, steps))
-        fail_diverged(bodies, *at, method, steps, [](std::size_t row) { return row; });
+        fail_diverged(bodies, *at, method, steps,
+                      [](std::size_t row) { return std::to_string(row); });
 }
 
 /// The warnings for a method with its default damping.
@@ -19,7 +20,8 @@ inline std::vector<std::string> warnings(const Bodies& bodies, const Method& met
     const Steps steps{.rate = at};
     std::vector<std::string> lines;
     for (const Risk& risk : preflight(bodies, method, steps))
-        lines.push_back(describe(risk, method, steps, [](std::size_t row) { return row; }));
+        lines.push_back(
+            describe(risk, method, steps, [](std::size_t row) { return std::to_string(row); }));
     return lines;
 }
 

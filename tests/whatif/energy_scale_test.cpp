@@ -34,5 +34,29 @@ TEST(EnergyScale, IsTheLargerOfKineticEnergyAndPotentialRangeSoFar) {
     EXPECT_EQ(with(0, 6), 7);
 }
 
+// The last place of 1 m is 2^-52 m in double and 2^-23 m in float. A body of 2 kg that moves by ten
+// of them in each of 60 steps per second has (600·2^-52 m/s)²·1 kg, or (600·2^-23 m/s)²·1 kg.
+TEST(RoundOffEnergy, IsOfTenLastPlacesOfACoordinatePerStep) {
+    for (const auto& [precision, place] : {std::pair(Precision::double_, std::ldexp(1, -52)),
+                                           {Precision::single, std::ldexp(1, -23)}}) {
+        World world(1, {.rate = {60}, .precision = precision});
+        (void)world.spawn(Body{.mass = 2, .position = {1}});
+        EXPECT_NEAR(round_off_energy(world), 360'000 * place * place, 1e-9 * place * place);
+        (void)world.spawn(Body{.mass = 1, .position = {-2}});
+        EXPECT_NEAR(round_off_energy(world), 1'080'000 * place * place, 1e-9 * place * place);
+    }
+    EXPECT_EQ(round_off_energy(World(2)), 0);
+}
+
+// A body of 3 kg at a height of 8 m has 240 J, below the zero −240 J.
+TEST(RoundOffEnergy, IsOfTenLastPlacesOfTheEnergyIfTheyAreMore) {
+    for (const double height : {8.0, -8.0}) {
+        World world(1, {.rate = {60}});
+        world.set_gravity({-10});
+        (void)world.spawn(Body{.mass = 3, .position = {height}});
+        EXPECT_NEAR(round_off_energy(world), 2400 * std::ldexp(1, -52), 1e-20);
+    }
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -154,23 +154,6 @@ TEST(Verdict, NamesTheBestSettingIfNoneIsBelowAPixel) {
     EXPECT_TRUE(holds(judge(measured(1e9, 1e9, 1e9)).text, "1.0e+09 m off, more than 99999 px"));
 }
 
-TEST(Verdict, LengthsHaveUnitsOfTheirSize) {
-    EXPECT_EQ(length_text(0), "0 m");
-    EXPECT_EQ(length_text(3e-13), "3e-13 m");
-    EXPECT_EQ(length_text(1.06e-10), "0.11 nm");
-    EXPECT_EQ(length_text(2.5e-8), "25 nm");
-    EXPECT_EQ(length_text(4.9e-7), "0.49 µm");
-    EXPECT_EQ(length_text(2.5e-6), "2.5 µm");
-    EXPECT_EQ(length_text(1.3e-5), "13 µm");
-    EXPECT_EQ(length_text(0.0025), "2.5 mm");
-    EXPECT_EQ(length_text(0.075), "7.5 cm");
-    EXPECT_EQ(length_text(0.997), "0.997 m");
-    EXPECT_EQ(length_text(3.14159), "3.14 m");
-    EXPECT_EQ(length_text(999.7), "1000 m");
-    EXPECT_EQ(length_text(12345.6), "12346 m");
-    EXPECT_EQ(length_text(5e96), "5.0e+96 m");
-}
-
 TEST(Verdict, NamesReadingsAtRestFirst) {
     WhatIf result = measured(0.04, 0.002, 0.001);
     result.runs[0].readings = {{"apex", 1.95, "m"}, {"score", 3}, {"speed", 5, "m/s"}};

@@ -9,6 +9,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "oiler/world/name.hpp"
 
 namespace oiler {
 namespace {
@@ -46,7 +47,7 @@ void require_finite(const Energy& energy, const World& world) {
     fail(Exit::diverged,
          "the energy is no longer finite at tick {}: body {} moves at {:.3g} m/s; take a higher "
          "rate or another method",
-         world.tick(), world.entity_of_row(fastest).index, most);
+         world.tick(), label_in(world, world.entity_of_row(fastest)), most);
 }
 
 TraceWriter::TraceWriter(const std::filesystem::path& trace, const std::filesystem::path& energy,

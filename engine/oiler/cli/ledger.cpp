@@ -10,6 +10,7 @@
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::cli {
@@ -137,7 +138,7 @@ std::string columns_text(const Ledger& ledger) {
 
 std::string change_text(const LedgerPass& pass) {
     if (pass.diverged) return "diverges";
-    return pass.changes_position == 0 ? "0 m" : fmt::format("{:.4g} m", pass.changes_position);
+    return length_text(pass.changes_position);
 }
 
 std::string saving_text(const LedgerPass& pass) {

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "oiler/cli/output.hpp"
+#include "oiler/core/error.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "oiler/lab/sweep/tradeoff_picture.hpp"
 #include "oiler/process/console.hpp"
@@ -38,9 +40,8 @@ std::string heading(const Tradeoff& tradeoff) {
                                    tradeoff.title.empty() ? tradeoff.scene : tradeoff.title,
                                    reference.meaningful_until, reference.words);
     text += fmt::format(
-        "  errors below {:.2g} m, 100 × the reference's own error of {:.2g} m, are shown as < "
-        "limit\n",
-        reference.floor.position, reference.position_error);
+        "  errors below {}, 100 × the reference's own error of {}, are shown as < limit\n",
+        length_text(reference.floor.position), length_text(reference.position_error));
     if (tradeoff.machines.size() > 1)
         text += fmt::format(
             "  times come from {} machines: compare only times of one method in one precision\n",

@@ -97,13 +97,4 @@ Picture draw_looks(const World& world, const Camera& camera, const ObstacleColou
     return picture;
 }
 
-std::string name_in(const World& world, Entity entity) {
-    const std::string index = " " + std::to_string(entity.index);
-    const Name* const name = world.find<Name>(entity);
-    if (!name) return "body" + index;
-    int count = 0;
-    world.each<Name>([&](Entity, const Name& one) { count += one.text == name->text ? 1 : 0; });
-    return count > 1 ? name->text + index : name->text;
-}
-
 }  // namespace oiler

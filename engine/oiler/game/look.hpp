@@ -9,6 +9,7 @@
 #include "oiler/core/state_hash.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/picture.hpp"
+#include "oiler/world/name.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {
@@ -25,17 +26,6 @@ struct Look {
 
     void hash(StateHash& hash) const;
 };
-
-/// A component: what the window and differences call an entity with a body. It is no state of the
-/// play.
-struct Name {
-    std::string text;
-    void hash(StateHash& /*hash*/) const {}
-};
-
-/// "hero", "target 5" if several are named "target", or "body 5" without a Name; the number is the
-/// entity's index.
-[[nodiscard]] std::string name_in(const World& world, Entity entity);
 
 /// The key of an entity's element in a picture. `part` distinguishes several elements of one
 /// entity. Motion by `world.teleport` is not interpolated.

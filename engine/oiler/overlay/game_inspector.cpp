@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/overlay/ghosts.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -201,7 +202,8 @@ Requests GameInspector::show(const LiveFigures* figures, const Input& mouse, Siz
         // What plays along may lag behind the shown energy, which belongs to the scale.
         EnergyScale scale = figures->energy_scale;
         scale.add(energy);
-        run.energy_scale = scale.joules();
+        const double joules = scale.joules();
+        run.energy_scale = joules > round_off_energy(world) ? joules : 0;
         run.is_scale_kinetic = scale.is_kinetic();
     }
     if (follower_.followed()) run.followed = figures_of(*follower_.followed());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "oiler/core/length_text.hpp"
 #include "oiler/game/look.hpp"
 #include "oiler/overlay/drawn_bodies.hpp"
 #include "oiler/overlay/overlays.hpp"

@@ -6,13 +6,13 @@
 #include <unordered_map>
 #include <utility>
 
+#include "oiler/core/length_text.hpp"
 #include "oiler/game/look.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
 #include "oiler/picture/theme.hpp"
 #include "oiler/sim/bodies.hpp"
-#include "oiler/whatif/verdict.hpp"
 
 namespace oiler {
 namespace {

@@ -39,8 +39,8 @@ struct Divergence {
 /// Keeps the earlier divergence: by tick, row, position before velocity, then axis.
 void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergence>& other);
 
-/// Returns the number by which messages name the body in a row.
-using NameOfRow = std::function<std::size_t(std::size_t)>;
+/// Returns what messages call the body in a row, after "body ": "3", or "'bob'" if it has a name.
+using NameOfRow = std::function<std::string(std::size_t)>;
 
 /// "diverged at step 41 (t = 0.41 s): velocity x of body 0 is no longer finite"
 [[nodiscard]] std::string describe(const Divergence& at, const Method& method, const Rate& rate,

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "oiler/core/random.hpp"
+#include "oiler/world/name.hpp"
 
 namespace oiler {
 namespace {
@@ -69,9 +70,12 @@ private:
 
     void add_bodies() {
         std::vector<Entity> entities;
-        for (const SceneBody& body : scene_.bodies)
-            entities.push_back(
-                spawn(body_of(body.matter, body.position, body.velocity), forces_of(body.matter)));
+        for (const SceneBody& body : scene_.bodies) {
+            const Entity entity =
+                spawn(body_of(body.matter, body.position, body.velocity), forces_of(body.matter));
+            if (!body.name.empty()) world_.add(entity, Name{body.name});
+            entities.push_back(entity);
+        }
         std::vector<std::size_t> springs(entities.size());
         std::vector<std::size_t> coils(entities.size());
         for (const SceneSpring& spring : scene_.springs) {

@@ -12,7 +12,7 @@ namespace oiler {
 
 /// Makes a world of the scene's bodies, with no other forces than the scene names. Rows are in the
 /// order of Scene: the bodies of [[body]], then of each grid row by row, then of each scatter.
-/// Obstacles are in the order of planes, obstacles, chains and tiles.
+/// Obstacles are in the order of planes, obstacles, chains and tiles. Named bodies have a Name.
 /// Throws Error{usage} if a number does not fit the precision of `settings`.
 [[nodiscard]] World make_world(const Scene& scene, const Settings& settings);
 

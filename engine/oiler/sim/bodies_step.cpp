@@ -58,7 +58,7 @@ void Bodies::step(const Method& method, const Steps& steps) {
     if (const auto at = try_step(method, steps))
         fail(Exit::diverged, "{}",
              describe(*at, method, steps.rate, link_count() > 0,
-                      [](std::size_t row) { return row; }));
+                      [](std::size_t row) { return std::to_string(row); }));
 }
 
 std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& steps) {

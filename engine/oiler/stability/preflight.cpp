@@ -174,7 +174,7 @@ std::string describe(const Risk& risk, const Method& method, const Steps& steps,
                      const NameOfRow& name) {
     if (!risk.message.empty())
         return fmt::format(fmt::runtime(risk.message), name(risk.row),
-                           risk.linked ? name(*risk.linked) : 0);
+                           risk.linked ? name(*risk.linked) : "");
     if (risk.of == Risk::Of::explosion) return describe_explosion(risk, method, steps, name);
     if (!(size(risk) > 0) || !std::isfinite(size(risk))) return describe_without_rate(risk, name);
     if (risk.orbit) return describe_loss(risk, method, steps, name);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "oiler/sim/body.hpp"
+#include "oiler/world/world.hpp"
 
 namespace oiler {
 
@@ -26,5 +26,9 @@ private:
     double lowest_ = std::numeric_limits<double>::infinity();
     double highest_ = -std::numeric_limits<double>::infinity();
 };
+
+/// The kinetic energy of bodies that move by ten last places of their coordinates per step, J, or
+/// ten last places of the energy itself if they are more. A smaller scale is only round-off.
+[[nodiscard]] double round_off_energy(const World& world);
 
 }  // namespace oiler

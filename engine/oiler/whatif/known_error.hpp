@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace oiler {
 
@@ -18,8 +19,8 @@ enum class Grade {
 /// The grade of an error in pixels; NaN is not known.
 [[nodiscard]] Grade grade_of(double pixels);
 
-/// "30 nm", "2 mm", "7.5 cm", "3.1 m".
-[[nodiscard]] std::string length_text(double metres);
+/// The size of a difference in its unit: "7.5 cm", "0.12 m/s", "100" without one.
+[[nodiscard]] std::string amount_text(double size, std::string_view unit);
 
 /// A measured error and its limit: 10 × the uncertainty of the reference. Errors below the limit
 /// are only known to be below it.

@@ -94,8 +94,6 @@ std::vector<Ghost> LiveWhatIf::ghosts(std::int64_t step, double alpha) const {
     return ghosts_of(places.run, places.truth);
 }
 
-std::optional<WhatIf> LiveWhatIf::result() const { return own_ ? own_->result() : std::nullopt; }
-
 void LiveWhatIf::stop(std::string reason) {
     is_measuring_ = false;
     figures_ = {

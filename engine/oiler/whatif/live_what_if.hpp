@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,8 +47,6 @@ public:
     }
     /// What was known at the last call of play_until.
     [[nodiscard]] const LiveFigures& figures() const { return figures_; }
-    /// At its own pace, the result so far; empty if measuring has stopped.
-    [[nodiscard]] std::optional<WhatIf> result() const;
     /// The bodies and their true positions, at `alpha` between the last two steps; empty if those
     /// are unknown or the game's step `step` is still to be played along.
     [[nodiscard]] std::vector<Ghost> ghosts(std::int64_t step, double alpha) const;

@@ -69,10 +69,6 @@ public:
     /// Judges what was measured, if that is new.
     void judge();
     [[nodiscard]] const LiveFigures& figures() const { return figures_; }
-    /// The result so far; empty if measuring has stopped.
-    [[nodiscard]] std::optional<WhatIf> result() const {
-        return runs_ ? std::optional(runs_->result()) : std::nullopt;
-    }
 
 private:
     void begin(const AnyGame& game);

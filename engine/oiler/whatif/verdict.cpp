@@ -7,6 +7,8 @@
 #include <cmath>
 #include <span>
 
+#include "oiler/core/length_text.hpp"
+
 namespace oiler {
 namespace {
 
@@ -103,10 +105,9 @@ std::string reading_text(const WhatIf& measured, const Reading& played) {
     const auto index = static_cast<std::size_t>(&played - measured.runs.front().readings.data());
     const double truth = measured.reference.readings[index].value;
     const double off = std::abs(played.value - truth);
-    const std::string by =
-        played.unit == "m" ? length_text(off) : fmt::format("{:.2g} {}", off, played.unit);
     return fmt::format("{} {:.4g} {}, true {:.4g} {}: {} too {} at {}.", played.name, played.value,
-                       played.unit, truth, played.unit, by, played.value < truth ? "low" : "high",
+                       played.unit, truth, played.unit, amount_text(off, played.unit),
+                       played.value < truth ? "low" : "high",
                        short_text(measured.runs.front().stepping));
 }
 

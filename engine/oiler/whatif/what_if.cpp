@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
@@ -101,17 +102,21 @@ std::string time_cell(const std::optional<double>& time) {
     return time ? fmt::format("{:.3f}", *time) : "-";
 }
 std::string cost_cell(double cost) { return std::isnan(cost) ? "-" : fmt::format("{:.0f}", cost); }
-/// Formats an error, or its limit if it is too small to be certain.
-std::string error_cell(const KnownError& error, bool with_sign) {
+/// Formats the size of an error, or its limit if it is too small to be certain.
+std::string error_cell(const KnownError& error, std::string_view unit) {
     if (error.state() == KnownError::State::unknown) return "-";
-    if (!error.is_certain()) return fmt::format("< {:.2g}", error.limit());
-    const double value = error.value();
-    return with_sign && value != 0 ? fmt::format("{:+.3g}", value) : fmt::format("{:.3g}", value);
+    if (!error.is_certain()) return "< " + amount_text(error.limit(), unit);
+    return amount_text(std::abs(error.value()), unit);
 }
 
 const Reading* find_reading(const std::vector<Reading>& readings, const std::string& name) {
     const auto found = std::ranges::find(readings, name, &Reading::name);
     return found == readings.end() ? nullptr : &*found;
+}
+
+/// "2.025 m", "300"
+std::string value_text(const Reading& reading) {
+    return fmt::format("{:.6g}{}{}", reading.value, reading.unit.empty() ? "" : " ", reading.unit);
 }
 
 bool is_count(const Reading& reading) {
@@ -138,12 +143,12 @@ std::string table_of_runs(const WhatIf& result) {
     std::string text = fmt::format("  {:<38} {:>10} {:>10} {:>8} {:>11} {:>36}\n", "", "distance",
                                    "at steps", "1 px", "other play", "ns per frame");
     text += fmt::format("  {:<38} {:>10} {:>10} {:>8} {:>11} {:>8} {:>8} {:>8} {:>9}\n",
-                        "* as recorded", "m", "m", "from, s", "from, s", "update", "step",
-                        "picture", "draw");
+                        "* as recorded", "", "", "from, s", "from, s", "update", "step", "picture",
+                        "draw");
     for (const WhatIfRun& run : result.runs)
         text += fmt::format("  {:<38} {:>10} {:>10} {:>8} {:>11} {:>8} {:>8} {:>8} {:>9}\n",
-                            setting_cell(run, result), error_cell(result.error_of(run), false),
-                            error_cell({run.distance_at_steps, result.uncertainty}, false),
+                            setting_cell(run, result), error_cell(result.error_of(run), "m"),
+                            error_cell({run.distance_at_steps, result.uncertainty}, "m"),
                             time_cell(run.visible_from), time_cell(run.other_play_from),
                             cost_cell(run.costs.update), cost_cell(run.costs.step),
                             cost_cell(run.costs.picture), cost_cell(run.costs.draw));
@@ -155,7 +160,9 @@ std::string table_of_runs(const WhatIf& result) {
 
 std::string reading_error_cell(const Reading& own, const WhatIfRun& run, const WhatIf& result) {
     const KnownError error(error_of(own, run), uncertainty_of(own.name, result));
-    return is_count(own) && !error.is_certain() ? "unknown" : error_cell(error, true);
+    if (!error.is_certain()) return is_count(own) ? "unknown" : error_cell(error, own.unit);
+    const char* const sign = error.value() < 0 ? "-" : error.value() > 0 ? "+" : "";
+    return sign + error_cell(error, own.unit);
 }
 
 /// Whether all runs end with the reading of the reference, which is certain.
@@ -169,19 +176,18 @@ bool is_the_same_everywhere(const Reading& reading, const WhatIf& result) {
 
 std::string table_of_reading(const Reading& reading, const WhatIf& result) {
     if (is_the_same_everywhere(reading, result))
-        return fmt::format("\n{} at the end: {:.6g} {}at each setting\n", reading.name,
-                           reading.value, reading.unit.empty() ? "" : reading.unit + " ");
+        return fmt::format("\n{} at the end: {} at each setting\n", reading.name,
+                           value_text(reading));
     std::string text = fmt::format(
-        "\n{}{}{} at the end{}: {:.6g}\n", reading.name, reading.unit.empty() ? "" : ", ",
-        reading.unit,
+        "\n{} at the end{}: {}\n", reading.name,
         result.certain_until < result.duration ? ", later than the reference is certain" : "",
-        reading.value);
+        value_text(reading));
     for (const WhatIfRun& run : result.runs) {
         const Reading* const own = find_reading(run.readings, reading.name);
         const std::string error = own ? reading_error_cell(*own, run, result) : "-";
         text += fmt::format(
-            "  {:<38} {:>10} {:>10}{}\n", setting_cell(run, result),
-            own ? fmt::format("{:.6g}", own->value) : "-", error,
+            "  {:<38} {:>12} {:>10}{}\n", setting_cell(run, result), own ? value_text(*own) : "-",
+            error,
             own && run.read_at < result.duration ? fmt::format("  at {:.3f} s", run.read_at) : "");
     }
     return text;
@@ -266,9 +272,9 @@ std::optional<WhatIf> measure_what_if(const RecordedPlay& play,
 
 std::string text_of(const WhatIf& result, std::string_view game) {
     std::string text =
-        fmt::format("{}: {:g} s of play\nreference: {}; at {} Hz it differs by {:.2g} m\n", game,
+        fmt::format("{}: {:g} s of play\nreference: {}; at {} Hz it differs by {}\n", game,
                     result.duration, table_text(result.reference.stepping),
-                    result.check.stepping.rate.steps, result.uncertainty);
+                    result.check.stepping.rate.steps, length_text(result.uncertainty));
     if (result.certain_until < result.duration)
         text += fmt::format("Distances are counted until {:.3f} s: there, these two part.\n",
                             result.certain_until);

@@ -27,6 +27,13 @@ template <class T>
     return text.substr(begin, text.find_first_of(";]", begin) - begin);
 }
 
+/// A type of component that is no state of a play, such as a name: hashes leave it out. It says so
+/// with `static constexpr bool is_state = false`.
+template <class T>
+concept NoState = requires {
+    requires !T::is_state;
+};
+
 /// A list in pages of equal size. Adding an item moves no other, and iterating over a page is as
 /// fast as over an array.
 template <class T>
@@ -130,7 +137,7 @@ public:
         if (slots_.place(slot) != SlotSet::absent) holes_.push_back(slots_.hide(slot));
     }
     virtual void fill_holes() = 0;
-    /// Adds the components to a hash, if their type says how; false if it does not.
+    /// Adds the components to a hash, if they are state; false if their type does not say how.
     virtual bool hash_into(StateHash& hash) const = 0;
     [[nodiscard]] virtual std::string_view type() const = 0;
 
@@ -168,14 +175,14 @@ public:
         for (const std::uint32_t hole : last_first(holes_)) fill(hole);
     }
     bool hash_into(StateHash& hash) const override {
-        if constexpr (Hashed<T>) {
+        if constexpr (Hashed<T> && !NoState<T>) {
             hash.add(slots_.size());
             for (std::size_t place = 0; place < items_.size(); ++place) {
                 hash.add(std::uint64_t{slots_[place]});
                 hash.add(items_[place]);
             }
         }
-        return Hashed<T>;
+        return Hashed<T> || NoState<T>;
     }
     [[nodiscard]] std::string_view type() const override { return type_name<T>(); }
 

@@ -11,6 +11,7 @@
 #include "oiler/sim/bodies.hpp"
 #include "oiler/sim/limits.hpp"
 #include "oiler/stability/preflight.hpp"
+#include "oiler/world/name.hpp"
 #include "oiler/world/search_ball.hpp"
 
 namespace oiler {
@@ -173,7 +174,8 @@ Entity World::entity_of_row(std::size_t row) const {
 }
 
 void World::throw_mistake(const char* call, Entity entity, const char* what) const {
-    throw Mistake(fmt::format("{} of entity {} at tick {}: {}", call, entity.index, tick_, what));
+    throw Mistake(
+        fmt::format("{} of entity {} at tick {}: {}", call, label_in(*this, entity), tick_, what));
 }
 
 void World::refuse(const char* call, const Error& error) const {
@@ -185,7 +187,7 @@ void World::refuse(const char* call, const Error& error) const {
 void World::refuse(const char* call, Entity entity, const Error& error) const {
     const bool computed = dynamic_cast<const NotFinite*>(&error);
     fail(computed ? Exit::diverged : error.exit(), "{} of entity {} at tick {}: {}", call,
-         entity.index, tick_, error.what());
+         label_in(*this, entity), tick_, error.what());
 }
 
 Vec3 World::position(Entity entity) const { return bodies_->position(row(entity)); }
@@ -444,7 +446,7 @@ Steps World::next_steps(std::int64_t count) const {
 }
 
 NameOfRow World::name_of_row() const {
-    return [this](std::size_t row) { return std::size_t{entity_of_row(row).index}; };
+    return [this](std::size_t row) { return label_in(*this, entity_of_row(row)); };
 }
 
 double World::time_in(double seconds) const {

@@ -176,7 +176,7 @@ TEST(DescribeAdvice, SayCostsForASecondAndForAFrame) {
          {" 36 µs per simulated second, 0.0036 % of a frame (0.6 µs);",
           " 72 µs per simulated second, 0.0072 % of a frame, 2 times the cost",
           " 9 µs per simulated second, 0.0009 % of a frame, 0.25 times the cost",
-          "that is 50 % of the 0.5 m allowed", "error 0.25 m as drawn, 0.125 m at the steps"})
+          "that is 50 % of the 0.5 m allowed", "error 25 cm as drawn, 12 cm at the steps"})
         EXPECT_TRUE(holds(words, part)) << part << "\n" << words;
     EXPECT_EQ(count_of(words, "(0.6 µs)"), 1U) << words;
 }

@@ -12,6 +12,7 @@
 #include "oiler/lab/advice/growth.hpp"
 #include "oiler/lab/advice/passing_time.hpp"
 #include "oiler/lab/rates/budget.hpp"
+#include "support/metres.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -148,8 +149,8 @@ TEST(Advice, ThatDoesNotExistNamesTheObstacles) {
     // Floats between 512 m and 1024 m are 2⁻¹⁴ m apart.
     const std::string rounding = "in float, round-off alone moves bodies by ";
     ASSERT_TRUE(advice.obstacles[0].starts_with(rounding)) << advice.obstacles[0];
-    const double moved = std::stod(advice.obstacles[0].substr(rounding.size()));
-    EXPECT_LE(moved, 1.001 * std::ldexp(1, -15));
+    const double moved = metres_in(advice.obstacles[0].substr(rounding.size()));
+    EXPECT_LE(moved, 1.05 * std::ldexp(1, -15));
     EXPECT_GE(moved, std::ldexp(1, -16));
     EXPECT_TRUE(holds(advice.obstacles[1], "double"));
     EXPECT_TRUE(holds(advised.words().front(), "No setting meets 1e-06 m"));

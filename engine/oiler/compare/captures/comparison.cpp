@@ -77,7 +77,13 @@ std::string_view name_of(Cause cause) {
 bool Comparison::passed() const { return std::ranges::all_of(frames, &FrameComparison::passed); }
 
 std::int64_t Comparison::count(Cause cause) const {
-    return std::ranges::count(frames, cause, &FrameComparison::cause);
+    return std::ranges::count_if(frames, [&](const FrameComparison& frame) {
+        return frame.cause == cause && !frame.tolerated;
+    });
+}
+
+std::int64_t Comparison::tolerated() const {
+    return std::ranges::count(frames, true, &FrameComparison::tolerated);
 }
 
 std::string verdict_of(const Comparison& comparison) {
@@ -102,7 +108,7 @@ std::string verdict_of(const Comparison& comparison) {
         return frame.tolerated && !frame.has_images;
     };
     const auto unseen = std::ranges::count_if(comparison.frames, is_unseen);
-    const std::int64_t tolerated = comparison.count(Cause::pixels) - unseen;
+    const std::int64_t tolerated = comparison.tolerated() - unseen;
     const std::string equal = frames_are(std::ssize(comparison.frames)) + " equal";
     std::string text = equal;
     if (tolerated > 0)
@@ -124,18 +130,12 @@ std::string describe(const Comparison& comparison) {
         text += fmt::format("{}: {} → {}\n", change.name, change.golden, change.actual);
     for (const std::string& finding : comparison.findings) text += finding + "\n";
     if (comparison.passed()) return text;
-    const auto count_failed = [&](Cause cause) {
-        return std::ranges::count_if(comparison.frames, [&](const FrameComparison& frame) {
-            return frame.cause == cause && !frame.tolerated;
-        });
-    };
-    const std::int64_t tolerated = comparison.count(Cause::pixels) - count_failed(Cause::pixels);
     text += fmt::format("{} frames:", comparison.frames.size());
     for (const Cause cause :
          {Cause::none, Cause::simulation, Cause::picture, Cause::pixels, Cause::missing})
-        if (const std::int64_t count = count_failed(cause); count > 0)
+        if (const std::int64_t count = comparison.count(cause); count > 0)
             text += fmt::format(" {} {};", count, cause == Cause::none ? "equal" : name_of(cause));
-    if (tolerated > 0) text += fmt::format(" {} tolerated;", tolerated);
+    if (comparison.tolerated() > 0) text += fmt::format(" {} tolerated;", comparison.tolerated());
     text.back() = '\n';
     return text;
 }
@@ -156,7 +156,8 @@ Json to_json(const Comparison& comparison) {
                       {"simulation", comparison.count(Cause::simulation)},
                       {"picture", comparison.count(Cause::picture)},
                       {"pixels", comparison.count(Cause::pixels)},
-                      {"missing", comparison.count(Cause::missing)}};
+                      {"missing", comparison.count(Cause::missing)},
+                      {"tolerated", comparison.tolerated()}};
     Json& frames = json["frames"] = Json::array();
     for (const FrameComparison& frame : comparison.frames)
         if (frame.cause != Cause::none)

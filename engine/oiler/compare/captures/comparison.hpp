@@ -68,7 +68,9 @@ struct Comparison {
     std::string verdict{};  ///< the first cause in one sentence
 
     [[nodiscard]] bool passed() const;
+    /// The number of frames with that cause, without tolerated ones.
     [[nodiscard]] std::int64_t count(Cause cause) const;
+    [[nodiscard]] std::int64_t tolerated() const;
 };
 
 /// The first cause in one sentence.

@@ -117,6 +117,12 @@ std::string circumstances_of(const Comparison& comparison) {
     return text;
 }
 
+std::string passed_text(const Comparison& comparison, Cause cause) {
+    if (cause != Cause::pixels || comparison.tolerated() == 0) return "no frame differs";
+    return fmt::format("{} of {} frames differ and are tolerated", comparison.tolerated(),
+                       comparison.frames.size());
+}
+
 }  // namespace
 
 void write_differences(const Comparison& comparison, const fs::path& folder) {
@@ -156,14 +162,13 @@ JunitSuite suite_of(const Comparison& comparison) {
             return frame.cause == cause && !frame.passed();
         };
         const auto first = std::ranges::find_if(comparison.frames, failed);
-        const auto count = std::ranges::count_if(comparison.frames, failed);
         if (first == comparison.frames.end())
-            suite.add(group, name_of(cause), Outcome::passed, "no frame differs");
+            suite.add(group, name_of(cause), Outcome::passed, passed_text(comparison, cause));
         else
             suite.add(group, name_of(cause), Outcome::failed,
-                      fmt::format("{} of {} frames, the first is frame {}: {}{}", count,
-                                  comparison.frames.size(), first->index, first->words,
-                                  circumstances_of(comparison)));
+                      fmt::format("{} of {} frames, the first is frame {}: {}{}",
+                                  comparison.count(cause), comparison.frames.size(), first->index,
+                                  first->words, circumstances_of(comparison)));
     }
     return suite;
 }

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/lab/advice/passing_time.hpp"
 #include "oiler/lab/advice/search.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -172,7 +173,7 @@ private:
         };
         if (!judgement.stable) return add("is unstable");
         if (!requirements_.has_tolerance())
-            return add(fmt::format("has an error of {:.3g} m", judgement.position_error));
+            return add("has an error of " + length_text(judgement.position_error));
         const double off = excess(judgement, requirements_);
         if (off > 1) return add(fmt::format("has {:.3g} times the error allowed", off));
         const std::string objection = search_.objection(row);
@@ -277,8 +278,8 @@ private:
         for (const Precision precision : {Precision::single, Precision::double_}) {
             const auto rounding = search_.too_coarse_float();
             if (precision == Precision::single && rounding) {
-                advice_.obstacles.push_back(
-                    fmt::format("in float, round-off alone moves bodies by {:.3g} m", *rounding));
+                advice_.obstacles.push_back("in float, round-off alone moves bodies by " +
+                                            length_text(*rounding));
                 continue;
             }
             const auto row = std::ranges::find(

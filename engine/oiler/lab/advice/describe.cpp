@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "oiler/core/length_text.hpp"
 #include "oiler/lab/advice/advise.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 namespace oiler::lab {
@@ -12,8 +13,7 @@ std::string describe_error(const Judgement& judgement, const Reference& referenc
     if (!judgement.stable) return "unstable";
     const double floor = reference.floor().position;
     const auto error = [&](double metres) {
-        return std::isnan(metres) ? fmt::format("below {:.2g} m", floor)
-                                  : fmt::format("{:.3g} m", metres);
+        return std::isnan(metres) ? "below " + length_text(floor) : length_text(metres);
     };
     return fmt::format("error {} as drawn, {} at the steps", error(judgement.position_error),
                        error(judgement.step_error));

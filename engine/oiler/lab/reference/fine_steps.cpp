@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oiler/core/length_text.hpp"
 #include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
@@ -308,22 +309,21 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
         vain = better ? 0 : vain + 1;
         if (!better) continue;
         most_usable = usable;
-        finest = {
-            .trajectory = table.best(),
-            .uncertainties = std::move(uncertainties),
-            .words = fmt::format(
-                "fine steps in {} by {} at {} Hz{}; the last halving changes the end by {:.2g} m",
-                precision == Precision::extended ? "long double" : "double", table.method().name,
-                rate,
-                table.extrapolates(table.finest_run())
-                    ? ", extrapolated from runs at that rate, its half and so on"
-                    : "",
-                uncertainty),
-            .finest_run = table.finest_run(),
-            .stepping = {&table.method(), {rate}, precision},
-            .sufficient_error = enough,
-            .sufficient = uncertainty <= enough,
-            .first_order = first_order};
+        finest = {.trajectory = table.best(),
+                  .uncertainties = std::move(uncertainties),
+                  .words = fmt::format(
+                      "fine steps in {} by {} at {} Hz{}; the last halving changes the end by {}",
+                      precision == Precision::extended ? "long double" : "double",
+                      table.method().name, rate,
+                      table.extrapolates(table.finest_run())
+                          ? ", extrapolated from runs at that rate, its half and so on"
+                          : "",
+                      length_text(uncertainty)),
+                  .finest_run = table.finest_run(),
+                  .stepping = {&table.method(), {rate}, precision},
+                  .sufficient_error = enough,
+                  .sufficient = uncertainty <= enough,
+                  .first_order = first_order};
         if (finest.sufficient) break;
     }
     finest.affordable = affordable;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/length_text.hpp"
 #include "oiler/lab/reference/fine_steps.hpp"
 #include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/scales.hpp"
@@ -200,8 +201,9 @@ private:
         const double own = reference_.uncertainties.back().position;
         const double allowed = margin * (fine.uncertainties[last].position + own);
         if (apart <= allowed) {
-            reference_.words += fmt::format(", confirmed by fine steps to {:.2g} m",
-                                            std::max(apart, fine.uncertainties[last].position));
+            reference_.words +=
+                fmt::format(", confirmed by fine steps to {}",
+                            length_text(std::max(apart, fine.uncertainties[last].position)));
             if (usable < samples.count)
                 reference_.words +=
                     fmt::format(" for the first {:.3g} s", samples.time(usable - 1));
@@ -209,9 +211,8 @@ private:
         }
         take_fine_steps();
         reference_.words += fmt::format(
-            "; closed form rejected: it differs by {:.3g} m from fine steps, whose own error is "
-            "{:.2g} m",
-            apart, fine.uncertainties[last].position);
+            "; closed form rejected: it differs by {} from fine steps, whose own error is {}",
+            length_text(apart), length_text(fine.uncertainties[last].position));
     }
 
     /// Measures the distances of a run of the same steps in double, sample by sample. Fine steps in
@@ -268,21 +269,20 @@ private:
     [[nodiscard]] std::string explain(double most, bool by_round_off) const {
         if (first_order_)
             return fmt::format(
-                "the reference's own error then exceeds {:.2g} m: {} by every method, which takes "
-                "too "
+                "the reference's own error then exceeds {}: {} by every method, which takes too "
                 "fine steps",
-                most / margin,
+                length_text(most / margin),
                 scene_.has_ropes() ? "ropes become taut with order 1 or 2"
                                    : "linked bodies land with order 1");
         return by_round_off
                    ? fmt::format(
-                         "round-off of double alone then moves bodies by more than {:.2g} m: the "
-                         "motion is chaotic",
-                         most)
+                         "round-off of double alone then moves bodies by more than {}: the motion "
+                         "is chaotic",
+                         length_text(most))
                    : fmt::format(
-                         "the reference's own error then exceeds {:.2g} m: the motion is chaotic, "
-                         "or a finer reference is too much work",
-                         most / margin);
+                         "the reference's own error then exceeds {}: the motion is chaotic, or a "
+                         "finer reference is too much work",
+                         length_text(most / margin));
     }
 
     void require_finite(const FineSteps& fine) const {
