@@ -203,6 +203,26 @@ TEST_F(Drawing, ASpriteShowsAPartOfItsBitmap) {
         }
 }
 
+// Each of two soft edges would cover half a pixel, and let a quarter of the background through.
+TEST_F(Drawing, TilesOfPixelArtHaveNoSeams) {
+    Picture picture;
+    for (int i = 0; i < 40; ++i)
+        picture.sprites.push_back({.centre = {50 + 7.3F * static_cast<float>(i), 100.4F},
+                                   .size = {7.3F, 9.7F},
+                                   .bitmap = make_bitmap({1, 1}, {0, 0, 0, 255}),
+                                   .is_smooth = false,
+                                   .space = Space::canvas});
+    const Pixels pixels = draw(picture);
+    for (int x = 50; x < 320; ++x) EXPECT_EQ(red(pixels, x, 100), 0) << x;
+    for (const int y : {94, 95, 96, 104, 105, 106}) {
+        const int edge = red(pixels, 100, y);
+        EXPECT_TRUE(edge == 0 || edge == 255) << "a whole pixel at " << y;
+    }
+    picture.sprites.resize(1);
+    picture.sprites[0].size = {0.1F, 0.1F};
+    EXPECT_EQ(ink(draw(picture)).right - ink(draw(picture)).left, 0) << "it does not vanish";
+}
+
 TEST_F(Drawing, ASpriteTurnsCounterClockwise) {
     const Pixels pixels = draw(of_sprite({.centre = {100, 100},
                                           .size = {20, 20},

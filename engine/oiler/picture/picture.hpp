@@ -84,7 +84,9 @@ struct Sprite {
     Colour colour{255, 255, 255, 255};  ///< a tint: the bitmap's colours are multiplied by it
     Space space = Space::world;
     int layer = 0;
-    bool is_smooth = true;  ///< false: magnified texels have sharp edges, as in pixel art
+    /// false: as in pixel art, magnified texels have sharp edges, and a sprite that is not turned
+    /// ends at whole pixels, so that tiles have no seams.
+    bool is_smooth = true;
     std::optional<BitmapPart> part{};  ///< the whole bitmap if absent
 };
 

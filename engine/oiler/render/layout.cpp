@@ -89,14 +89,27 @@ std::pair<float, float> texels(int first, int count, bool is_mirrored) {
     return {from, static_cast<float>(is_mirrored ? -count : count)};
 }
 
+/// Rounds the ends of an interval, given by its middle and half its length, to whole pixels, at
+/// least one apart.
+void snap(float& middle, float& half) {
+    const float low = std::round(middle - half);
+    const float high = std::max(std::round(middle + half), low + 1);
+    middle = (low + high) / 2;
+    half = (high - low) / 2;
+}
+
 void lay_out_sprite(const Sprite& sprite, const Mapping& mapping, Size frame, Layout& layout) {
-    const Point centre = mapping.pixel(sprite.centre, sprite.space);
-    const Point half{mapping.pixels(std::abs(sprite.size.x), sprite.space) / 2,
-                     mapping.pixels(std::abs(sprite.size.y), sprite.space) / 2};
+    Point centre = mapping.pixel(sprite.centre, sprite.space);
+    Point half{mapping.pixels(std::abs(sprite.size.x), sprite.space) / 2,
+               mapping.pixels(std::abs(sprite.size.y), sprite.space) / 2};
     const float reach = std::hypot(half.x, half.y);
     const bool is_drawable = sprite.bitmap && half.x > 0 && half.y > 0 && std::isfinite(reach) &&
                              std::isfinite(sprite.angle);
     if (!is_drawable || !is_near(centre, frame, reach + 1)) return;
+    if (!sprite.is_smooth && sprite.angle == 0) {
+        snap(centre.x, half.x);
+        snap(centre.y, half.y);
+    }
     const BitmapPart part = sprite.part.value_or(BitmapPart{0, 0, sprite.bitmap->size});
     const auto [x, width] = texels(part.left, part.size.width, sprite.size.x < 0);
     const auto [y, height] = texels(part.top, part.size.height, sprite.size.y < 0);
