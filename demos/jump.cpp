@@ -65,6 +65,7 @@ struct Shown {
     bool is_over;
     Colour colour;
     ElementKey key;
+    std::vector<Point> whole{};  // the path up to the end
 };
 
 /// Draws a jump with the take-off at x = `left`.
@@ -94,6 +95,7 @@ void draw(Picture& picture, const Shown& shown, float left) {
 
     constexpr float radius = 0.09F;
     const Point feet = shown.path.back();
+    line(shown.whole, 1.5F, palette::faded(shown.colour, 110));
     line(shown.path, 2.5F, shown.colour, shown.key);
     picture.discs.push_back({.key = shown.key,
                              .centre = {feet.x + left, feet.y + radius},
@@ -198,7 +200,8 @@ struct Jump {
                 apex,
                 true,
                 apex < ledge ? palette::vermilion : palette::green,
-                {.object = 1, .part = 1, .jump = round}};
+                {.object = 1, .part = 1, .jump = round},
+                dragged_path};
     }
 
     void draw_slider(Picture& picture) const {
