@@ -58,5 +58,26 @@ TEST(RoundOffEnergy, IsOfTenLastPlacesOfTheEnergyIfTheyAreMore) {
     }
 }
 
+/// The scale of 2 s of a body that hangs from a spring at its rest, or is pushed, m/s.
+double scale_of_hanging(double push) {
+    World world(1, {.rate = {60}});
+    world.set_gravity({-9.81});
+    constexpr double stiffness = 9;
+    (void)world.spawn(Body{.mass = 0.3, .position = {0.97}, .velocity = {push}},
+                      Spring{.anchor = {0.97 + 0.3 * 9.81 / stiffness}, .stiffness = stiffness});
+    EnergyScale scale;
+    for (int step = 0; step < 120; ++step) {
+        world.step();
+        scale.add(world.energy());
+    }
+    EXPECT_GT(scale.joules(), 0) << "its rest is not a double";
+    return joules_of(scale, world);
+}
+
+TEST(EnergyScale, OfAWorldAtRestIsNone) {
+    EXPECT_EQ(scale_of_hanging(0), 0);
+    EXPECT_NEAR(scale_of_hanging(1e-3), 0.3 * 1e-6 / 2, 1e-8);
+}
+
 }  // namespace
 }  // namespace oiler::test

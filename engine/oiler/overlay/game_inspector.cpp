@@ -202,8 +202,7 @@ Requests GameInspector::show(const LiveFigures* figures, const Input& mouse, Siz
         // What plays along may lag behind the shown energy, which belongs to the scale.
         EnergyScale scale = figures->energy_scale;
         scale.add(energy);
-        const double joules = scale.joules();
-        run.energy_scale = joules > round_off_energy(world) ? joules : 0;
+        run.energy_scale = joules_of(scale, world);
         run.is_scale_kinetic = scale.is_kinetic();
     }
     if (follower_.followed()) run.followed = figures_of(*follower_.followed());

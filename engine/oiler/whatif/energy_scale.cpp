@@ -21,4 +21,8 @@ double round_off_energy(const World& world) {
     return std::max(kinetic, places * (energy.kinetic + std::abs(energy.potential)));
 }
 
+double joules_of(const EnergyScale& scale, const World& world) {
+    return scale.joules() > round_off_energy(world) ? scale.joules() : 0;
+}
+
 }  // namespace oiler

@@ -31,4 +31,7 @@ private:
 /// ten last places of the energy itself if they are more. A smaller scale is only round-off.
 [[nodiscard]] double round_off_energy(const World& world);
 
+/// The scale of the energy changes of a world, J; 0 if it is only round-off.
+[[nodiscard]] double joules_of(const EnergyScale& scale, const World& world);
+
 }  // namespace oiler
