@@ -210,8 +210,8 @@ TEST_F(Drawing, TilesOfPixelArtHaveNoSeams) {
         picture.sprites.push_back({.centre = {50 + 7.3F * static_cast<float>(i), 100.4F},
                                    .size = {7.3F, 9.7F},
                                    .bitmap = make_bitmap({1, 1}, {0, 0, 0, 255}),
-                                   .is_smooth = false,
-                                   .space = Space::canvas});
+                                   .space = Space::canvas,
+                                   .is_smooth = false});
     const Pixels pixels = draw(picture);
     for (int x = 50; x < 320; ++x) EXPECT_EQ(red(pixels, x, 100), 0) << x;
     for (const int y : {94, 95, 96, 104, 105, 106}) {
