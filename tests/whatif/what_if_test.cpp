@@ -232,6 +232,28 @@ TEST(WhatIf, NamesNoDistanceWhereNothingWasCompared) {
     EXPECT_EQ(result.runs[1].other_play_from, 2 / 60.0);
 }
 
+/// A spring with ω = 110/s, stable at 60 Hz: ω·dt < 2. At 10 Hz, each step makes it 119 times as
+/// long, more than 3.4e38 m after 19 steps.
+struct Stiff {
+    static constexpr About about{.name = "stiff", .title = "Stiff", .rate = rate};
+    World world;
+    explicit Stiff(const Settings& settings) : world(1, settings) {
+        world.add(world.spawn(Body{.position = {1}}, Spring{.stiffness = 110 * 110}), Name{"bob"});
+    }
+    [[nodiscard]] Picture picture() const { return draw_looks(world, {.height = camera_height}); }
+};
+
+TEST(WhatIf, ASettingThatExplodesFailsAlone) {
+    const WhatIf result = measure<Stiff>(record<Stiff>(), "10,120");
+    EXPECT_TRUE(result.runs[0].failure.empty());
+    EXPECT_TRUE(result.runs[1].failure.starts_with("diverged at step 2")) << result.runs[1].failure;
+    EXPECT_TRUE(holds(result.runs[1].failure,
+                      "body 'bob' is farther away than a picture reaches, 3.4e+38 m; spring of "
+                      "body 'bob': ω·dt = 11"))
+        << result.runs[1].failure;
+    EXPECT_TRUE(result.runs[2].failure.empty());
+}
+
 /// A body that moves 1 m a step, and is brought back in every second one.
 struct Commuter {
     static constexpr About about{.name = "commuter", .title = "Commuter", .rate = rate};
@@ -309,6 +331,13 @@ void expect_other_play(double after_delay = chord(60)) {
     EXPECT_EQ(result.certain_until, 2);
 }
 TEST(WhatIf, NothingIsCountedOnceABodyIsMissing) { expect_other_play<Jump<Hit::destroys>>(); }
+// Steps of 59 and 60 Hz begin together only once a second.
+TEST(WhatIf, AnotherPlayIsSeenWhereRatesShareNoSteps) {
+    using Game = Jump<Hit::destroys>;
+    const WhatIf result = measure<Game>(record<Game>(), "59,59@velocity_verlet");
+    EXPECT_EQ(result.runs[1].other_play_from, 25 / 60.0);
+    EXPECT_FALSE(result.runs[2].other_play_from) << "meets the target, a step later";
+}
 // The target falls, too: from the same height, but later.
 TEST(WhatIf, NothingIsCountedOnceATeleportIsMissing) {
     const double seen = 395 / 960.0;

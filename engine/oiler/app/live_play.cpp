@@ -258,7 +258,7 @@ std::string LivePlay::status() const {
         case State::playing:
             break;
     }
-    return clock_.kept_pace().text();
+    return run_.options.quiet ? "" : clock_.kept_pace().text();
 }
 
 std::optional<Inspected::Past> LivePlay::past() const {

@@ -251,6 +251,7 @@ public:
     [[nodiscard]] bool takes_input() const override { return Updates<G>; }
     [[nodiscard]] const World& world() const override { return game_.world; }
     [[nodiscard]] Picture picture() const override {
+        game_.world.require_drawable();
         return guarded(place("picture"), [&] {
             Picture picture = drawn();
             require_drawable(picture);

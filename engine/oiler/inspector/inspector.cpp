@@ -92,7 +92,7 @@ struct Inspector::Impl {
     static void show_verdict(const Inspected& run) {
         // The height is fixed, so that nothing moves under the mouse.
         ImGui::BeginChild("verdict", {0, lines_of_verdict * ImGui::GetTextLineHeightWithSpacing()});
-        marked(run.grade, run.verdict);
+        if (!run.verdict.empty()) marked(run.grade, run.verdict);
         ImGui::EndChild();
         ImGui::Separator();
     }

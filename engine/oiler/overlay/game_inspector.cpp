@@ -69,7 +69,7 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
             .error = !run.failure.empty()  ? "failed"
                      : run.other_play_from ? "other events"
                                            : error.text(measured.pixel),
-            .grade = colour_of(run.is_sound() ? error.grade(measured.pixel) : Grade::bad),
+            .grade = colour_of(run.is_sound() ? measured.grade_of(run) : Grade::bad),
             .cost = cost < least_cost ? "< 10 µs" : time_text(cost),
             .forces = std::isfinite(times) && times > 0 ? fmt::format("×{:.2g}", times) : ""};
 }
@@ -80,8 +80,9 @@ void add_measured(Inspected& run, const LiveFigures& figures) {
     if (!run.errors.empty()) run.last_error = length_text(run.errors.back());
     if (!figures.measured || !has_figures(*figures.measured)) return;
     const WhatIf& measured = *figures.measured;
-    // The errors are newer than the result.
     WhatIfRun played = measured.runs.front();
+    if (played.other_play_from) run.last_error = "other events";
+    // The errors are newer than the result.
     if (!run.errors.empty()) played.distance = std::max(played.distance, double{run.errors.back()});
     run.settings.push_back(inspected(played, measured));
     for (const WhatIfRun& other : std::span(measured.runs).subspan(1))

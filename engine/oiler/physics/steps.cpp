@@ -29,6 +29,9 @@ std::string describe(const Divergence& at, const Method& method, const Rate& rat
     }
     if (at.of == Divergence::Of::impacts)
         return fmt::format("{}: body {} meets planes too often to follow it", when, name(at.row));
+    if (at.of == Divergence::Of::drawing)
+        return fmt::format("{}: body {} is farther away than a picture reaches, 3.4e+38 m", when,
+                           name(at.row));
     return fmt::format("{}: {} {} of body {} is no longer finite", when,
                        at.of == Divergence::Of::velocity ? "velocity" : "position",
                        axis_names[static_cast<std::size_t>(at.axis)], name(at.row));

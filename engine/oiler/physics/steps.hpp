@@ -27,7 +27,8 @@ struct Divergence {
         position,
         velocity,
         solution,  ///< of an implicit method
-        impacts    ///< more in a step than can be followed
+        impacts,   ///< more in a step than can be followed
+        drawing    ///< farther than a picture reaches
     };
 
     std::int64_t tick;  ///< the first tick whose state is not finite

@@ -82,7 +82,7 @@ void PlayAlong::take_step() {
     }
     figures_.energy_scale.add(runs_->recorded_game().world().energy());
     figures_.last = runs_->drawn();
-    if (!runs_->certain()) return;
+    if (!runs_->certain() || runs_->recorded().other_play_from) return;
     if (figures_.errors.size() >= most_errors) figures_.errors.erase(figures_.errors.begin());
     figures_.errors.push_back(static_cast<float>(runs_->recorded().distance_now));
 }
@@ -93,6 +93,12 @@ void PlayAlong::stop(std::string reason) {
         .begin = figures_.begin, .verdict = {.text = std::move(reason)}, .has_stopped = true};
 }
 
+std::string PlayAlong::name_of(Entity body) {
+    const AnyGame& game = runs_->recorded_game();
+    if (game.world().has_body(body)) named_ = {body, game.name_of(body)};
+    return named_.first == body ? named_.second : game.name_of(body);
+}
+
 void PlayAlong::judge() {
     if (is_judged()) return;
     judged_ = figures_.played;
@@ -100,10 +106,10 @@ void PlayAlong::judge() {
     if (has_input(play_.recording)) figures_.repeats = false;
     if (figures_.repeats && measured.certain_until < figures_.measured->certain_until) return;
     figures_.repeats = false;
-    const AnyGame& game = runs_->recorded_game();
     figures_.verdict = judge_setting(measured, readings_, figures_.begin->time,
-                                     [&](Entity body) { return game.name_of(body); });
-    if (std::isnan(measured.runs.front().distance) && game.world().body_count() == 0)
+                                     [this](Entity body) { return name_of(body); });
+    if (std::isnan(measured.runs.front().distance) &&
+        runs_->recorded_game().world().body_count() == 0)
         figures_.verdict = {};
     readings_ = measured.runs.front().readings;
     figures_.measured = std::move(measured);

@@ -73,6 +73,8 @@ public:
 private:
     void begin(const AnyGame& game);
     void stop(std::string reason);
+    /// The name of a body of the played run, also when it is gone.
+    [[nodiscard]] std::string name_of(Entity body);
     [[nodiscard]] std::vector<Stepping> other_settings(const MakeGame& make) const;
 
     RecordedPlay play_;  ///< its recording grows
@@ -81,6 +83,8 @@ private:
     bool is_too_large_ = false;       ///< the game, to be measured
     std::int64_t judged_ = 0;         ///< the steps that the verdict judges
     std::vector<Reading> readings_;   ///< at the last verdict
+    /// The last body that a verdict named while it was there.
+    std::pair<Entity, std::string> named_{};
     LiveFigures figures_;
 };
 

@@ -134,13 +134,6 @@ std::string end_text(const WhatIf& measured, double begin) {
     return fmt::format(" After {:.1f} s the true motion is not known.", until);
 }
 
-/// The grade of the played run: where its largest error is not certain, a pixel may be.
-Grade grade_of_played(const WhatIf& measured) {
-    const WhatIfRun& played = measured.runs.front();
-    const Grade grade = measured.error_of(played).grade(measured.pixel);
-    return grade == Grade::unknown && played.visible_from ? Grade::visible : grade;
-}
-
 /// What is known of a distance that is only known to be below a limit above a pixel.
 std::string limit_text(const WhatIf& measured, double begin, const std::string& setting) {
     const WhatIfRun& played = measured.runs.front();
@@ -187,7 +180,7 @@ Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before
             fmt::format("From {:.1f} s on, other things happen at {} than in the true motion.{}{}",
                         begin + *played.other_play_from, setting, cure_text(measured), end)};
     const auto now = [&](Grade grade) { return is_known_now(measured) ? grade : Grade::unknown; };
-    const Grade grade = grade_of_played(measured);
+    const Grade grade = measured.grade_of(played);
     if (const Reading* const reading = worst_reading(measured, before))
         return {now(std::max(grade, Grade::visible)),
                 reading_text(measured, *reading) + cure_text(measured) + end};

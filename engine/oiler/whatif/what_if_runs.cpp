@@ -202,24 +202,31 @@ void SettingRun::take_step() {
         const std::int64_t after = game_->world().bodies().evaluations();
         evaluations_ += after - (after < before ? 0 : before);
     } catch (const Error& error) {
-        if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw;
-        result_.failure = error.what();
+        fail_with(error);
     }
     keep(updates_, std::chrono::nanoseconds(times_.update), steps_);
     if (times_.step > 0) keep(world_steps_, std::chrono::nanoseconds(times_.step), steps_);
 }
 
+void SettingRun::fail_with(const Error& error) {
+    if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw error;
+    result_.failure = error.what();
+}
+
 void SettingRun::compare(std::int64_t recorded, double time, const Moment& reference,
                          double visible) {
-    if (failed() || result_.other_play_from || !ratio_.has(recorded)) return;
+    if (failed() || result_.other_play_from) return;
     const std::optional<Apart> apart = largest_distance(reference, moment());
+    const bool is_at_step = ratio_.has(recorded);
     if (!apart) {
+        const double late = is_at_step ? 0 : result_.stepping.rate.dt();
         differs_from_ = differs_from_.value_or(time);
-        if (time - *differs_from_ >= lasting_difference) result_.other_play_from = differs_from_;
+        if (time - *differs_from_ >= lasting_difference + late)
+            result_.other_play_from = differs_from_;
         return;
     }
     differs_from_.reset();
-    if (recorded == 0 || reference.bodies.empty()) return;
+    if (!is_at_step || recorded == 0 || reference.bodies.empty()) return;
     if (!(apart->distance <= result_.distance_at_steps))
         result_.distance_at_steps = apart->distance;
     note(*apart, time, visible);
@@ -244,8 +251,12 @@ void SettingRun::read(std::int64_t recorded, const std::vector<Reading>& truth) 
 void SettingRun::time_picture() {
     if (failed()) return;
     const auto start = std::chrono::steady_clock::now();
-    const Picture picture = game_->picture();
-    pictures_.push_back(std::chrono::steady_clock::now() - start);
+    try {
+        const Picture picture = game_->picture();
+        pictures_.push_back(std::chrono::steady_clock::now() - start);
+    } catch (const Error& error) {
+        fail_with(error);
+    }
 }
 
 void SettingRun::time_drawing(DrawTimer& draw) {

@@ -93,8 +93,8 @@ public:
     void play_until(std::int64_t recorded, const TrueMotion& truth, double visible);
     /// Takes all steps until an instant, and adds their impacts.
     void play_until_instant(std::int64_t index, std::deque<TrueImpact>* impacts = nullptr);
-    /// Compares the play with the reference as that recorded step begins, `time` in s, if a step of
-    /// this run begins then, too.
+    /// Compares the play with the reference as that recorded step begins, `time` in s, and the
+    /// places of bodies if a step of this run begins then, too.
     void compare(std::int64_t recorded, double time, const Moment& reference, double visible);
     /// Reads the game as that recorded step begins, if a step of this run begins then, too.
     /// `truth` are the readings of the reference.
@@ -116,6 +116,8 @@ public:
 private:
     [[nodiscard]] bool goes_on() const { return !game_->loop().quits() && !failed(); }
     void take_step();
+    /// Ends the run with an error of the game; throws any other one.
+    void fail_with(const Error& error);
     void add_impacts(std::deque<TrueImpact>& impacts) const;
     void compare_impacts(const Moment& before, const std::deque<TrueImpact>& impacts,
                          double visible);

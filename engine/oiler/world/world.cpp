@@ -358,6 +358,14 @@ std::optional<Divergence> World::try_step(std::int64_t count) {
     return divergence;
 }
 
+void World::require_drawable() const {
+    constexpr double most = std::numeric_limits<float>::max();
+    for (std::size_t row = 0; row < body_count(); ++row)
+        if (!(largest(position_of_row(row)) <= most))
+            fail_diverged(*bodies_, {tick_, row, 0, Divergence::Of::drawing},
+                          *settings_.stepping.method, next_steps(1), name_of_row());
+}
+
 void World::require_applicable() const {
     bodies_->require_applicable(*settings_.stepping.method, next_steps(1));
 }

@@ -294,6 +294,9 @@ public:
 
     /// Throws Error{usage} if the method cannot step these bodies; it steps nothing.
     void require_applicable() const;
+    /// Throws Error{diverged}, with the likely cause, if a body is farther away than the float
+    /// numbers of a picture reach.
+    void require_drawable() const;
     /// Describes what goes wrong with the method at the rate, with a remedy, one per line and the
     /// worst first: springs, drag, orbits, drives and bounces that it does not follow, and places
     /// where a force or a plane has no effect. After `most` lines, the last one counts the others.
