@@ -17,6 +17,9 @@ fail() { echo "menu_test: $1"; cat "$folder/err"; exit 1; }
 window_focused() { xdotool search --name '^Oiler$' windowfocus >/dev/null 2>&1; }
 has_started() { grep -qx "$1" "$folder/started"; }
 
+# Without the size of an earlier window.
+export XDG_STATE_HOME="$folder/states"
+
 # An installed Oiler with two games.
 prefix=$folder/oiler
 mkdir -p "$prefix/bin" "$prefix/libexec/oiler" "$prefix/share/oiler/demos"
