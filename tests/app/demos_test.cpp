@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plays the demos cannon, bounce, stability_map, cloth, platformer and galton, and films
-// spring_damper.
+// Plays the demos cannon, bounce, projectile, stability_map, cloth, platformer and galton, and
+// films spring_damper.
 #include <fmt/format.h>
 
 #include "app/played.hpp"
@@ -392,6 +392,19 @@ double left_of(const json& line) {
 }
 
 /// The only line of that width.
+TEST(ProjectileDemo, StartsASalvoEveryEightSecondsAtEachRate) {
+    for (const int rate : {10, 144}) {
+        std::vector<int> bodies(static_cast<std::size_t>(17 * rate + 1));
+        for (const TraceRow& row :
+             trace_of(fmt::format("projectile --quiet --rate {0} --steps {1}", rate, 17 * rate)))
+            ++bodies.at(static_cast<std::size_t>(row.tick));
+        std::vector<int> starts;
+        for (int tick = 1; tick <= 17 * rate; ++tick)
+            if (bodies.at(tick) > bodies.at(tick - 1)) starts.push_back(tick - 1);
+        EXPECT_EQ(starts, (std::vector{8 * rate, 16 * rate})) << rate;
+    }
+}
+
 const json& line_of(const json& picture, const char* space, double width) {
     const auto& lines = picture.at("lines");
     return *std::ranges::find_if(
