@@ -271,7 +271,7 @@ struct Cloth {
             picture.labels.push_back({.at = at,
                                       .text = std::move(words),
                                       .size = size,
-                                      .colour = colour,
+                                      .colour = readable(colour),
                                       .align = align});
         };
         const auto& [method, rate, precision, damping_in] = world.settings().stepping;

@@ -173,8 +173,11 @@ struct IntegratorRace {
 
     static void text(Picture& picture, Point at, std::string words, float size, Colour colour,
                      Align align = Align::left) {
-        picture.labels.push_back(
-            {.at = at, .text = std::move(words), .size = size, .colour = colour, .align = align});
+        picture.labels.push_back({.at = at,
+                                  .text = std::move(words),
+                                  .size = size,
+                                  .colour = readable(colour),
+                                  .align = align});
     }
 
     void draw_lane(Picture& picture, std::size_t index, const Lane& lane, const Sample& now,

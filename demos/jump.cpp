@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shows one jump at two rates: at 60 Hz it misses a ledge at 2.00 m, at 240 Hz it lands on it. A
-// slider changes the first rate, --rate the second, --method the method of both.
+// slider changes the left rate, --rate the right one, --method the method of both.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -33,6 +33,7 @@ struct Jumper {
     void jump(World& world) {
         if (world.alive(body)) world.destroy(body);
         *this = {world.spawn(Body{.velocity = take_off}), {{0, 0}}};
+        world.add(body, Name{"right ball"});
     }
 
     /// Adds the position after a step. A body that falls onto the ledge or the ground stays there.
@@ -63,7 +64,6 @@ struct Shown {
     std::vector<Point> path;  // up to the feet
     float apex;               // m, so far
     bool is_over;
-    Colour colour;
     ElementKey key;
     std::vector<Point> whole{};  // the path up to the end
 };
@@ -79,10 +79,12 @@ void draw(Picture& picture, const Shown& shown, float left) {
         picture.labels.push_back({.at = {at.x + left, at.y},
                                   .text = words,
                                   .size = size,
-                                  .colour = ink,
+                                  .colour = readable(ink),
                                   .align = Align::centre,
                                   .space = Space::world});
     };
+    const bool misses = shown.is_over && shown.apex < ledge;
+    const Colour colour = misses ? palette::vermilion : palette::blue;
     std::vector<Point> arc;
     for (double t = 0; t < 2.001 * take_off[1] / gravity; t += 0.01)
         arc.push_back(to_point({take_off[0] * t, take_off[1] * t - gravity / 2 * t * t}));
@@ -95,16 +97,15 @@ void draw(Picture& picture, const Shown& shown, float left) {
 
     constexpr float radius = 0.09F;
     const Point feet = shown.path.back();
-    line(shown.whole, 1.5F, palette::faded(shown.colour, 110));
-    line(shown.path, 2.5F, shown.colour, shown.key);
+    line(shown.whole, 1.5F, palette::faded(colour, 110));
+    line(shown.path, 2.5F, colour, shown.key);
     picture.discs.push_back({.key = shown.key,
                              .centre = {feet.x + left, feet.y + radius},
                              .radius = radius,
-                             .colour = shown.colour});
-    text({0.81F, 1.0F}, fmt::format("{} Hz", shown.rate), 30, shown.colour);
-    text({0.81F, 0.72F}, fmt::format("apex {:.3f} m", shown.apex), 17, palette::ink);
-    if (shown.is_over)
-        text({0.81F, 0.47F}, shown.apex < ledge ? "misses" : "lands", 17, shown.colour);
+                             .colour = colour});
+    text({0.73F, 0.68F}, fmt::format("{} Hz", shown.rate), 30, colour);
+    text({0.73F, 0.43F}, fmt::format("apex {:.3f} m", shown.apex), 17, palette::ink);
+    if (shown.is_over) text({0.73F, 0.18F}, misses ? "misses" : "lands", 17, colour);
 }
 
 float place_of(std::size_t rate) {
@@ -125,7 +126,7 @@ struct Jump {
 
     World world;
     Jumper jumper;
-    std::size_t dragged = 6;  // the rate of the first jump, which is only drawn
+    std::size_t dragged = 6;  // the rate of the left jump, which is only drawn
     bool is_grabbed = false;
     std::vector<Point> dragged_path;
 
@@ -158,7 +159,8 @@ struct Jump {
     }
 
     std::vector<Reading> readings() const {
-        return {{"apex", double{std::ranges::max(jumper.path, {}, &Point::y).y}, "m"}};
+        return {{"right apex", double{std::ranges::max(jumper.path, {}, &Point::y).y},
+                 "m"}};
     }
 
     Picture picture() const {
@@ -172,11 +174,8 @@ struct Jump {
     Shown shown_live() const {
         std::vector<Point> path = jumper.path;
         if (world.has_body(jumper.body)) path.push_back(to_point(world.position(jumper.body)));
-        return {world.settings().stepping.rate.steps,
-                std::move(path),
-                std::ranges::max(jumper.path, {}, &Point::y).y,
-                !world.has_body(jumper.body),
-                palette::blue,
+        return {world.settings().stepping.rate.steps, std::move(path),
+                std::ranges::max(jumper.path, {}, &Point::y).y, !world.has_body(jumper.body),
                 key_of(world, jumper.body)};
     }
 
@@ -195,19 +194,17 @@ struct Jump {
         }
         const float apex = std::ranges::max(dragged_path, {}, &Point::y).y;
         const auto round = static_cast<std::uint32_t>(world.time() / double{interval});
-        return {rate,
-                std::move(path),
-                apex,
-                true,
-                apex < ledge ? palette::vermilion : palette::green,
-                {.object = 1, .part = 1, .jump = round},
+        return {rate,        std::move(path), apex, true, {.object = 1, .part = 1, .jump = round},
                 dragged_path};
     }
 
     void draw_slider(Picture& picture) const {
         const auto text = [&](Point at, std::string words, Colour colour, Align align) {
-            picture.labels.push_back(
-                {.at = at, .text = std::move(words), .size = 9, .colour = colour, .align = align});
+            picture.labels.push_back({.at = at,
+                                      .text = std::move(words),
+                                      .size = 9,
+                                      .colour = readable(colour),
+                                      .align = align});
         };
         picture.polylines.push_back({.points = {slider_low, slider_high},
                                      .width = 3,
@@ -217,8 +214,7 @@ struct Jump {
             text({place_of(i), 20}, fmt::format("{}", rates[i]),
                  i == dragged ? palette::ink : palette::grey, Align::centre);
         text({620, 20}, "Hz", palette::grey, Align::left);
-        text({320, 5}, "Drag the rate of the first jump, or press ← →", palette::ink,
-             Align::centre);
+        text({320, 5}, "Drag the rate of the left jump, or press ← →", palette::ink, Align::centre);
         picture.discs.push_back({.centre = {place_of(dragged), slider_low.y},
                                  .radius = 8,
                                  .colour = palette::ink,

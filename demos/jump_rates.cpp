@@ -59,6 +59,7 @@ struct Player {
         world.add_plane({.normal = {0, 1}});
         before = {start, sole.radius};
         body = world.spawn(Body{.position = before, .contact = sole});
+        world.add(body, Name{"hero"});
     }
     /// Does what the player wants, before a step. The ledge is a floor from above only.
     void act(World& world, double direction) {
@@ -214,8 +215,11 @@ struct JumpRates {
     }
     static void text(Picture& picture, Point at, std::string words, float size, Colour colour,
                      Align align = Align::left) {
-        picture.labels.push_back(
-            {.at = at, .text = std::move(words), .size = size, .colour = colour, .align = align});
+        picture.labels.push_back({.at = at,
+                                  .text = std::move(words),
+                                  .size = size,
+                                  .colour = readable(colour),
+                                  .align = align});
     }
     static void line(Picture& picture, std::vector<Point> points, float width, Colour colour) {
         picture.polylines.push_back({.points = std::move(points),
@@ -234,8 +238,8 @@ struct JumpRates {
     void draw_lane(Picture& picture, std::size_t index, const World& of, const Player& who,
                    const Vec3& shown) const {
         const auto at = [&](double x, double y) { return place(index, {x, y}); };
-        const bool reaches = who.apex >= ledge;
-        const Colour colour = reaches ? palette::blue : palette::vermilion;
+        const bool misses = !who.rises() && who.apex < ledge;
+        const Colour colour = misses ? palette::vermilion : palette::blue;
         block(picture, at(0, -0.2), at(track, 0), palette::grey);
         block(picture, at(ledge_left, ledge - 0.25), at(ledge_right, ledge), palette::ink);
         text(picture, at(ledge_right + 0.3, ledge - 0.3), "2.00 m", 8, palette::grey);
@@ -271,6 +275,7 @@ struct JumpRates {
                                  .space = Space::canvas});
         constexpr double half = 1e-9;                                  // rounds up
         const double off = 100 * (std::abs(apex - true_apex) + half);  // cm
+        if (who.rises()) return;
         text(picture, {chart_x(chart_low), low}, fmt::format("{:.3f} m", apex + half), 10,
              palette::ink);
         text(picture, {chart_x(chart_high), low},

@@ -59,6 +59,7 @@ struct Platformer {
                             .swing = Swing{{0, 1.8}, 4},
                             .one_way = Vec3{0, 1}});
         hero = world.spawn(Body{.position = start, .contact = Contact{radius}});
+        world.add(hero, Name{"hero"});
         world.add(hero, Look{.size = float(radius), .colour = palette::orange});
     }
     void hash(StateHash& hash) const { hash.add(stood_at, pressed_at, has); }

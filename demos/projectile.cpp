@@ -21,7 +21,7 @@ namespace {
 constexpr double gravity = -9.81;                // m/s²
 constexpr double linear_coefficient = 0.25;      // N·s/m
 constexpr double quadratic_coefficient = 0.015;  // N·s²/m²
-constexpr double pause_after_landing = 1.0;      // s
+constexpr double interval = 8;                   // s from one salvo to the next
 
 enum class Drag { none, linear, quadratic };
 struct Kind {
@@ -45,6 +45,7 @@ struct Shot {
 struct Trail {
     std::vector<Point> points;
 };
+struct Salvo {};
 
 /// Exact position `t` s after the launch, without drag or with linear drag.
 Vec3 exact(const Shot& shot, double t) {
@@ -78,7 +79,6 @@ struct Projectile {
 
     World world;
     std::mt19937_64 random;
-    double last_landing = 0;
     std::array<double, kinds.size()> largest_error{};  // m, per kind
 
     explicit Projectile(const Settings& settings) : world(2, settings), random(settings.seed) {
@@ -93,6 +93,7 @@ struct Projectile {
                 fire({kind.drag,
                       {speed * (1 - u * u) / (1 + u * u), speed * 2 * u / (1 + u * u)},
                       world.time()});
+        world.schedule(interval, Salvo{});
     }
 
     void fire(const Shot& shot) {
@@ -112,23 +113,18 @@ struct Projectile {
                 const Vec3 at = moving.position();
                 extend(trail, to_point(at), at[1] < 0);
                 if (shot.drag != Drag::quadratic) measure(shot, at);
-                if (at[1] < 0) land(entity);
+                if (at[1] < 0) world.remove_body(entity);
             });
-        if (world.body_count() == 0 && world.time() - last_landing >= pause_after_landing) {
+        world.due<Salvo>([&](Salvo) {
             world.each<Shot>([&](Entity entity, const Shot&) { world.destroy(entity); });
             fire_salvo();
-        }
+        });
     }
 
     void measure(const Shot& shot, const Vec3& at) {
         const Vec3 truth = exact(shot, world.time() - shot.fired);
         double& largest = largest_error[static_cast<std::size_t>(shot.drag)];
         largest = std::max(largest, std::hypot(at[0] - truth[0], at[1] - truth[1]));
-    }
-
-    void land(Entity entity) {
-        world.remove_body(entity);
-        last_landing = world.time();
     }
 
     Picture picture() const {

@@ -12,6 +12,7 @@
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/theme.hpp"
 #include "oiler/plot/plot.hpp"
 
 using namespace oiler;
@@ -65,7 +66,9 @@ struct SpringDamper {
     explicit SpringDamper(const Settings& settings)
         : world(1, settings),
           mass(world.spawn(Body{.mass = 1, .position = {start}},
-                           Spring{.stiffness = stiffness, .damping = damping})) {}
+                           Spring{.stiffness = stiffness, .damping = damping})) {
+        world.add(mass, Name{"mass"});
+    }
 
     void update(const Input&) {
         const Sample now = sample();
@@ -169,7 +172,7 @@ struct SpringDamper {
         picture.labels.push_back({.at = {624, 340},
                                   .text = "k = 15 N/m, b = 0.1 N·s/m, m = 1 kg",
                                   .size = 11,
-                                  .colour = palette::grey,
+                                  .colour = readable(palette::grey),
                                   .align = Align::right});
         picture.labels.push_back(
             {.at = {16, 324},

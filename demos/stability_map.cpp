@@ -264,8 +264,11 @@ struct StabilityMap {
 
     static void text(Picture& picture, Point at, float size, std::string words,
                      Colour colour = palette::ink, Align align = Align::left) {
-        picture.labels.push_back(
-            {.at = at, .text = std::move(words), .size = size, .colour = colour, .align = align});
+        picture.labels.push_back({.at = at,
+                                  .text = std::move(words),
+                                  .size = size,
+                                  .colour = readable(colour),
+                                  .align = align});
     }
     static void line(Picture& picture, Point from, Point to, float width,
                      Colour colour = palette::ink) {

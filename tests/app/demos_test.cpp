@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Plays the demos cannon, bounce, stability_map, cloth, platformer and galton, and films
-// spring_damper.
+// Plays the demos cannon, bounce, projectile, stability_map, cloth, platformer and galton, and
+// films spring_damper.
 #include <fmt/format.h>
 
 #include "app/played.hpp"
+#include "oiler/picture/theme.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -369,19 +370,48 @@ TEST(Galton, ItsBellIsAboutTheBinomialLaws) {
     EXPECT_NEAR(readings.at("deviation").get<double>(), 0.7906, 0.16);
 }
 
-// Films the demo spring_damper, whose wall, mass and curves stay beside each other.
+TEST(ProjectileDemo, StartsASalvoEveryEightSecondsAtEachRate) {
+    for (const int rate : {10, 144}) {
+        std::vector<int> bodies(static_cast<std::size_t>(17 * rate + 1));
+        for (const TraceRow& row :
+             trace_of(fmt::format("projectile --quiet --rate {0} --steps {1}", rate, 17 * rate)))
+            ++bodies.at(static_cast<std::size_t>(row.tick));
+        std::vector<int> starts;
+        for (int tick = 1; tick <= 17 * rate; ++tick)
+            if (bodies.at(tick) > bodies.at(tick - 1)) starts.push_back(tick - 1);
+        EXPECT_EQ(starts, (std::vector{8 * rate, 16 * rate})) << rate;
+    }
+}
 
-std::vector<json> pictures_of(const std::string& options) {
+std::vector<json> pictures_of(const std::string& demo, const std::string& options) {
     const Folder folder;
     const std::string out = (folder / "film").string();
-    std::istringstream lines(shell("spring_damper --headless --quiet --size 16x9 --out '" + out +
-                                   "' " + options + " && gzip -dc '" + out + "/frames.jsonl.gz'")
+    std::istringstream lines(shell(demo + " --headless --quiet --size 16x9 --out '" + out + "' " +
+                                   options + " && gzip -dc '" + out + "/frames.jsonl.gz'")
                                  .out);
     std::vector<json> pictures;
     for (std::string line; std::getline(lines, line);)
         pictures.push_back(json::parse(line).at("picture"));
     return pictures;
 }
+
+TEST(Demos, HaveTextsThatCanBeRead) {
+    constexpr double least = 4.5;
+    const auto colour = [](const json& rgba) {
+        return Colour{rgba.at(0), rgba.at(1), rgba.at(2), rgba.at(3)};
+    };
+    for (const char* const demo :
+         {"bounce", "cannon", "cloth", "galton", "integrator_race", "jump", "jump_rates",
+          "platformer", "projectile", "spring_damper", "stability_map"})
+        for (const json& picture : pictures_of(demo, "--fps 3 --frames 4")) {
+            const Colour ground = colour(picture.at("background"));
+            for (const json& label : picture.value("labels", json::array()))
+                EXPECT_GE(contrast(colour(label.at("colour")), ground), least)
+                    << demo << ": " << label.at("text");
+        }
+}
+
+// Films the demo spring_damper, whose wall, mass and curves stay beside each other.
 
 /// The left end of a line.
 double left_of(const json& line) {
@@ -404,7 +434,7 @@ const char* const settings[] = {"--fps 10 --frames 40",
 
 TEST(SpringDamperDemo, ItsMassStaysOnOneSideOfTheWallAndInThePicture) {
     for (const char* const options : settings) {
-        const std::vector<json> pictures = pictures_of(options);
+        const std::vector<json> pictures = pictures_of("spring_damper", options);
         ASSERT_GE(pictures.size(), 40U);
         for (const json& picture : pictures) {
             const double wall = left_of(line_of(picture, "world", 3));
@@ -426,7 +456,7 @@ TEST(SpringDamperDemo, ItsCurveStaysWithinItsPlot) {
     constexpr int part = 12;  // of the key: the simulated positions
     for (const char* const options : settings) {
         std::size_t curves = 0;
-        for (const json& picture : pictures_of(options))
+        for (const json& picture : pictures_of("spring_damper", options))
             for (const json& line : picture.at("lines")) {
                 if (line["key"][1] != part) continue;
                 ++curves;

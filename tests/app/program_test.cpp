@@ -210,7 +210,7 @@ TEST(Program, TraceReadsBackAndJsonDescribesTheRun) {
 // Semi-implicit Euler misses 2.025 m by speed·dt/2. The demo keeps the apex in float.
 TEST(Program, JsonHasTheReadingsOfAGame) {
     const Outcome run = shell("jump --quiet --steps 240 --json -", 0);
-    EXPECT_NEAR(Json::parse(run.out)["readings"]["apex"].get<double>(), 2.025 - 9.0 / 240 / 2,
+    EXPECT_NEAR(Json::parse(run.out)["readings"]["right apex"].get<double>(), 2.025 - 9.0 / 240 / 2,
                 0x1p-23);
     EXPECT_FALSE(Json::parse(shell("hello --quiet --steps 1 --json -").out).contains("readings"));
 }

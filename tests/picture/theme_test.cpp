@@ -15,6 +15,22 @@ TEST(Contrast, IsThatOfTheGuidelines) {
     EXPECT_EQ(contrast(palette::green, palette::green), 1);
 }
 
+// The contrast of Okabe and Ito's orange with white is 2.25, that of their blue 5.19; white on a
+// grey of 118 has 4.54.
+TEST(Contrast, ReadableColoursChangeOnlyAsFarAsTheyMust) {
+    constexpr double least = 4.5, slightly_more = 4.75;
+    EXPECT_NEAR(contrast(palette::orange, palette::paper), 2.25, 5e-3);
+    EXPECT_EQ(readable(palette::blue), palette::blue);
+    for (const Colour colour : {palette::orange, palette::sky_blue, palette::green,
+                                palette::vermilion, palette::purple, palette::grey}) {
+        EXPECT_GE(contrast(readable(colour), palette::paper), least);
+        EXPECT_LE(contrast(readable(colour), palette::paper), slightly_more);
+        for (const Colour ground :
+             {palette::black, palette::pale, Colour{117, 117, 117}, Colour{118, 118, 118}, colour})
+            EXPECT_GE(contrast(readable(colour, ground), ground), least) << int{ground.g};
+    }
+}
+
 TEST(Theme, HasInkThatCanBeReadOnEachGround) {
     constexpr double least = 4.5;
     constexpr std::uint8_t sheet = 232;  // the opacity of sheets over a picture

@@ -9,6 +9,7 @@
 #include "oiler/game/game.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/theme.hpp"
 
 namespace oiler::cli {
 namespace {
@@ -83,8 +84,11 @@ private:
 
 void add_text(Picture& picture, Point at, std::string words, float size, Colour colour,
               Align align = Align::left) {
-    picture.labels.push_back(
-        {.at = at, .text = std::move(words), .size = size, .colour = colour, .align = align});
+    picture.labels.push_back({.at = at,
+                              .text = std::move(words),
+                              .size = size,
+                              .colour = readable(colour),
+                              .align = align});
 }
 
 /// A name without ".toml", and shorter if it is wider than a card.

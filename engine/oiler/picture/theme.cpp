@@ -33,6 +33,10 @@ constexpr Theme made_of(Colour paper, Colour ink) {
             .knob = tint(palette::blue, 0.6F)};
 }
 
+bool is_dark(Colour ground) {
+    return contrast(ground, palette::paper) > contrast(ground, palette::black);
+}
+
 constexpr Theme light = made_of(palette::paper, palette::ink);
 constexpr Theme dark = made_of({28, 31, 38}, {236, 238, 242});
 
@@ -44,10 +48,15 @@ double contrast(Colour a, Colour b) {
     return (high + flare) / (low + flare);
 }
 
-const Theme& theme_of(Colour background) {
-    const bool is_dark =
-        contrast(background, palette::paper) > contrast(background, palette::black);
-    return is_dark ? dark : light;
+Colour readable(Colour colour, Colour ground) {
+    constexpr double least = 4.5;
+    const Colour end = is_dark(ground) ? palette::paper : palette::black;
+    Colour text = colour;
+    for (int percent = 1; contrast(text, ground) < least; ++percent)
+        text = palette::mix(colour, end, static_cast<float>(percent) / 100);
+    return text;
 }
+
+const Theme& theme_of(Colour background) { return is_dark(background) ? dark : light; }
 
 }  // namespace oiler

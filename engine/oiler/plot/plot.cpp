@@ -11,6 +11,7 @@
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/theme.hpp"
 #include "oiler/plot/ticks.hpp"
 
 namespace oiler {
@@ -268,7 +269,7 @@ void draw_labels(const Plot& plot, Picture& picture) {
     };
     put({box.low.x, box.high.y + 25}, plot.title, title_size, Align::left);
     put({box.high.x, box.high.y + 25}, plot.remark, label_size, Align::right).colour =
-        palette::grey;
+        readable(palette::grey);
     put({box.low.x, box.high.y + 6}, plot.y_label, label_size, Align::left);
     put({box.high.x, box.low.y - 23}, plot.x_label, label_size, Align::right);
     float y = box.low.y - 26;
