@@ -228,12 +228,12 @@ void require_finite_energy(const GameRun& run, std::optional<std::int64_t>& over
         RunInputs inputs(options, run.about, *game);
         for (std::int64_t step = 0; step < run.playback.steps(); ++step) {
             overflow = step;
-            require_finite(game->world().energy(), game->world());
+            game->world().require_finite(game->world().energy());
             static_cast<void>(game->step(step, 1, inputs.source()));
         }
         overflow.reset();
     }
-    require_finite(world.energy(), world);
+    world.require_finite(world.energy());
 }
 
 /// Plays the game. Completes the report, also after a divergence.
