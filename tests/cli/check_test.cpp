@@ -287,6 +287,56 @@ TEST(Check, NamesTheTickAtWhichTheEnergyOverflowsAsPlayDoes) {
     }
 }
 
+// One place names the cause, whether the state or the energy overflows first.
+TEST(Check, NamesTheCauseOfAnEnergyThatOverflows) {
+    const Desk desk(diverging_scene(""));
+    desk.run("sed -i 's/duration = 10.0/duration = 5.0/' scene.toml", 0);
+    const std::string cause = " m/s; " + warning_of_the_scene + "\n";
+    EXPECT_TRUE(holds(desk.run("oiler check scene.toml", 5).out, cause));
+    for (const char* options : {"--steps 300 --json a.json", "--steps 300 --energy e.csv",
+                                "--headless --png none --out f --frames 300 --size 16x16"}) {
+        const Outcome played = desk.run("oiler play scene.toml --quiet " + std::string(options), 5);
+        EXPECT_TRUE(holds(played.err, cause)) << options << played.err;
+    }
+}
+
+// Half of 20736 N/m times (1e160 m)², and half of (1e160 m/s)², are not finite.
+TEST(Check, FailsABudgetOfASceneWhoseEnergyIsNotFiniteAtTheStart) {
+    const std::string start = "the energy is not finite at the start: body 'mass' ";
+    const std::string far = start +
+                            "is 1e+160 m from the origin, too far for a finite energy: place it "
+                            "nearer, or give it weaker forces";
+    const std::string fast =
+        start + "moves at 1e+160 m/s, too fast for a finite energy: give it a lower speed";
+    for (const auto& [change, line] : {std::pair{"s/position = .*/position = [1e160]/", far},
+                                       std::pair{"s/position = .*/velocity = [1e160]/", fast}}) {
+        const Desk desk(diverging_scene("[budget]\nposition_error = 1.0\n"));
+        desk.run("sed -i '" + std::string(change) + "; s/20736/10/' scene.toml", 0);
+        const Outcome run = desk.run("oiler check scene.toml --junit a.xml", 5);
+        EXPECT_EQ(run.out,
+                  "scene.toml: " + line + "\nscene.toml: [budget] not checked: the run diverges\n");
+        const std::string xml = desk.text("a.xml");
+        EXPECT_TRUE(holds(xml, "tests=\"2\" failures=\"2\" errors=\"0\" skipped=\"0\""));
+        EXPECT_TRUE(holds(xml, "name=\"budget\"><failure message=\"[budget] not checked"));
+        EXPECT_TRUE(holds(desk.run("oiler play scene.toml --quiet --steps 1", 5).err, line));
+    }
+}
+
+TEST(Check, NamesTheAttractorThatABodyStartsOn) {
+    const Desk desk(
+        "[scene]\naxes = 2\nrate = 60\nduration = 1.0\n[[body]]\nname = \"free\"\nposition = [5.0, "
+        "0.0]\nvelocity = [9.0, 0.0]\n[[body]]\nname = \"mass\"\nposition = [1.0, 0.0]\n"
+        "[[attractor]]\nposition = [1.0, 0.0]\ngm = 1.0\n");
+    const std::string cause =
+        "body 'mass' is on an attractor, where the force has no direction: move the body\n";
+    const Outcome run = desk.run("oiler check scene.toml", 5);
+    EXPECT_TRUE(holds(run.out, "is no longer finite; " + cause)) << run.out;
+    for (const char* options : {"--steps 1", "--steps 1 --energy e.csv"}) {
+        const Outcome played = desk.run("oiler play scene.toml --quiet " + std::string(options), 5);
+        EXPECT_TRUE(played.err.ends_with(cause)) << played.err;
+    }
+}
+
 TEST(Check, CountsTheStepsBeforeADivergenceHoweverTheyAreTaken) {
     const Desk desk(diverging_scene(""));
     for (const char* options : {"--steps 600", "--steps 563", "--steps 600 --trace t.csv",

@@ -217,6 +217,32 @@ TEST_F(Compare, AChangedGoldenHasItsCauseAPageARemedyAndAJunitWithTheBudget) {
     EXPECT_TRUE(holds(junit, "classname=\"[budget]\" name=\"position_error\"><failure"));
 }
 
+// An older file of --junit would show CI the result of another run.
+TEST_F(Compare, ARunThatEndsWithoutAComparisonReplacesAnOlderJunit) {
+    capture("golden", pendulum, "--fps 30 --frames 5");
+    const std::string play =
+        "oiler play golden/scene.toml --headless --quiet --size 64x36 --fps 30 --frames 5 "
+        "--golden golden/frames --out new --junit new.xml";
+    desk.run(play, 0);
+    EXPECT_TRUE(holds(desk.text("new.xml"), "failures=\"0\" errors=\"0\""));
+
+    desk.put("golden/scene.toml", with(pendulum, "stiffness = 200.0", "stiffness = 1e300"));
+    const Outcome diverged = desk.run(play, 5);
+    const std::string failure = desk.text("new.xml");
+    EXPECT_TRUE(holds(failure, "tests=\"1\" failures=\"1\" errors=\"0\""));
+    EXPECT_TRUE(holds(diverged.err, "oiler: diverged at step 3 ")) << diverged.err;
+    EXPECT_TRUE(holds(failure,
+                      "classname=\"golden/frames\" name=\"run\"><failure message=\"diverged at "
+                      "step 3 "))
+        << failure;
+
+    desk.put("golden/scene.toml", pendulum);
+    desk.run(play + " --time-limit 0", 4);
+    const std::string error = desk.text("new.xml");
+    EXPECT_TRUE(holds(error, "tests=\"1\" failures=\"0\" errors=\"1\"")) << error;
+    EXPECT_TRUE(holds(error, "name=\"run\"><error message=\"the time limit is reached\""));
+}
+
 /// Names and bytes of a folder's files.
 std::string contents_of(const Desk& desk, const std::string& folder) {
     return desk.run("cd '" + folder + "'; md5sum .[!.]* * 2>&1").out;

@@ -128,6 +128,15 @@ TEST(Budget, BelowTheFloorIsKept) {
     EXPECT_TRUE(holds(lines[0].words, "position_error below "));
 }
 
+TEST(Budget, OfASceneAtRestHasAnErrorOfZero) {
+    const std::vector<BudgetEntry> lines = checked(
+        "[scene]\naxes = 1\nrate = 60\nduration = 4.0\n[[body]]\nname = \"b\"\n[[spring]]\n"
+        "body = \"b\"\nanchor = [0.0]\nstiffness = 1.0\n[budget]\nposition_error = 1.0\n");
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0].words, "position_error 0 m of 1 m: kept");
+    EXPECT_FALSE(lines[0].is_limit());
+}
+
 TEST(Budget, ThatIsTooTightIsRefused) {
     for (const auto& [text, named] :
          {std::pair{with_position("1e-14"), "position_error"},

@@ -36,6 +36,14 @@ TEST(WhatIfSettings, AreReadFromWords) {
     }
 }
 
+TEST(WhatIfSettings, ThatBeginWithADigitAreWholeRates) {
+    for (const char* wrong : {"60.5", "1e3", "30,rk4@60Hz", "99999999999999999999"}) {
+        const std::string line = line_of_error(
+            Exit::usage, [&] { (void)parse_what_if(wrong, {.method = &find_method("rk4")}); });
+        EXPECT_TRUE(holds(line, "': expected a whole rate in Hz, for example 60; ")) << line;
+    }
+}
+
 TEST(WhatIfSettings, ThatAreUsualChangeOneThing) {
     const auto usual = [](const Stepping& recorded) {
         std::string list;

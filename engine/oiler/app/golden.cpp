@@ -10,6 +10,7 @@
 #include "oiler/compare/captures/comparison.hpp"
 #include "oiler/compare/captures/differences.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/core/markup.hpp"
 #include "oiler/process/console.hpp"
 
 namespace oiler {
@@ -41,6 +42,14 @@ Exit compare_with_golden(const Options& options, const std::vector<BudgetEntry>&
     say("differences: " + (folder / "index.html").string());
     say("If the change is intended, write the golden again with --update-golden.");
     return Exit::comparison_failed;
+}
+
+void write_junit_of_failure(const Options& options, Exit exit, std::string_view reason) {
+    using Outcome = JunitSuite::Outcome;
+    const bool failed = exit == Exit::diverged || exit == Exit::comparison_failed;
+    JunitSuite suite("oiler compare");
+    suite.add(options.golden.string(), "run", failed ? Outcome::failed : Outcome::error, reason);
+    write_file(options.junit, suite.xml(), kinds::junit);
 }
 
 GoldenUpdate::GoldenUpdate(const fs::path& golden, const std::string& scene)

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "oiler/app/options.hpp"
 #include "oiler/app/report.hpp"
@@ -15,6 +16,11 @@ namespace oiler {
 /// of differences and, on request, JUnit XML with the budget. Throws Error.
 [[nodiscard]] Exit compare_with_golden(const Options& options,
                                        const std::vector<BudgetEntry>& budget);
+
+/// Writes --junit of a run that ended without a comparison: a failure if it diverged or differs
+/// from its recording, else an error. An older file would show CI the result of another run. Throws
+/// Error{io}.
+void write_junit_of_failure(const Options& options, Exit exit, std::string_view reason);
 
 /// Replaces the golden by a complete new capture. A run that fails leaves the old one. The golden
 /// is locked meanwhile.

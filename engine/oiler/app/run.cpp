@@ -228,12 +228,12 @@ void require_finite_energy(const GameRun& run, std::optional<std::int64_t>& over
         RunInputs inputs(options, run.about, *game);
         for (std::int64_t step = 0; step < run.playback.steps(); ++step) {
             overflow = step;
-            require_finite(game->world().energy(), game->world());
+            game->world().require_finite(game->world().energy());
             static_cast<void>(game->step(step, 1, inputs.source()));
         }
         overflow.reset();
     }
-    require_finite(world.energy(), world);
+    world.require_finite(world.energy());
 }
 
 /// Plays the game. Completes the report, also after a divergence.
@@ -261,11 +261,9 @@ Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
     return end.exit;
 }
 
-}  // namespace
-
-Exit run_game(const Options& options, const About& about, const MakeGame& make,
+/// Plays the game and writes the files of the run.
+Exit run_once(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget, Shelf* shelf) {
-    if (options.what_if) return run_what_if(options, about, make);
     const std::unique_ptr<AnyGame> game = make(options.settings);
     RunInputs inputs(options, about, *game);
     const World& world = game->world();
@@ -322,6 +320,20 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     else if (!options.golden.empty())
         exit = std::max(exit, compare_with_golden(options, report.budget));
     return std::max(exit, show_budget(report.budget, options.quiet));
+}
+
+}  // namespace
+
+Exit run_game(const Options& options, const About& about, const MakeGame& make,
+              const MeasureBudget& measure_budget, Shelf* shelf) try {
+    if (options.what_if) return run_what_if(options, about, make);
+    const Exit exit = run_once(options, about, make, measure_budget, shelf);
+    if (!options.junit.empty() && Interrupt::requested())
+        write_junit_of_failure(options, Exit::interrupted, Interrupt::reason());
+    return exit;
+} catch (const Error& error) {
+    if (!options.junit.empty()) write_junit_of_failure(options, error.exit(), error.what());
+    throw;
 }
 
 int run_program(int argc, char** argv, const About& about, const MakeGame& make) {

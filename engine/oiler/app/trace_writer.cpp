@@ -3,13 +3,10 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <iterator>
 #include <string_view>
 
-#include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
-#include "oiler/world/name.hpp"
 
 namespace oiler {
 namespace {
@@ -30,25 +27,6 @@ void append_number(std::string& row, double value, Precision precision) {
 }
 
 }  // namespace
-
-void require_finite(const Energy& energy, const World& world) {
-    if (std::isfinite(energy.total())) return;
-    const Bodies& bodies = world.bodies();
-    std::size_t fastest = 0;
-    double most = -1;
-    for (std::size_t row = 0; row < bodies.size(); ++row) {
-        const Vec3 v = bodies.velocity(row);
-        const double speed = std::hypot(v[0], v[1], v[2]);
-        if (speed > most) {
-            most = speed;
-            fastest = row;
-        }
-    }
-    fail(Exit::diverged,
-         "the energy is no longer finite at tick {}: body {} moves at {:.3g} m/s; take a higher "
-         "rate or another method",
-         world.tick(), label_in(world, world.entity_of_row(fastest)), most);
-}
 
 TraceWriter::TraceWriter(const std::filesystem::path& trace, const std::filesystem::path& energy,
                          const World& world) {
@@ -80,7 +58,7 @@ void TraceWriter::write_bodies(std::int64_t step, const World& world) {
 
 void TraceWriter::write_energy(std::int64_t step, const World& world) {
     const Energy energy = world.energy();
-    require_finite(energy, world);
+    world.require_finite(energy);
     energy_->write(fmt::format("{},{},{},{},{}\n", step, world.settings().stepping.rate.time(step),
                                energy.kinetic, energy.potential, energy.total()));
 }

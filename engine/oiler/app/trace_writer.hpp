@@ -10,9 +10,6 @@
 
 namespace oiler {
 
-/// Throws Error{diverged} if the energy is not finite. Its squares overflow before the state does.
-void require_finite(const Energy& energy, const World& world);
-
 /// Writes CSV files after each step: a row per body (trace) and a row of energies. Numbers read
 /// back to the same bits.
 class TraceWriter {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/app/trace_writer.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
@@ -27,6 +26,7 @@ struct CheckResult {
     std::string file;
     std::vector<std::string> warnings{};  ///< of the pre-flight
     std::string divergence{};             ///< empty if the run stays finite
+    bool has_budget = false;
     std::vector<BudgetEntry> lines{};
     std::string error{};  ///< the reason why the check is impossible
 
@@ -35,8 +35,14 @@ struct CheckResult {
     }
 };
 
+/// The reason why no number of a budget was checked, without an error.
+std::string why_no_lines(const CheckResult& result) {
+    return result.has_budget ? "[budget] not checked: the run diverges" : "no [budget]";
+}
+
 /// One test case for each number of a budget, one for the warnings of a scene and one for a run
-/// that diverged. A scene without a budget is a skipped case.
+/// that diverged. A scene without a budget is a skipped case, a budget without numbers a failed
+/// one.
 void add(JunitSuite& suite, const CheckResult& result) {
     using Outcome = JunitSuite::Outcome;
     if (!result.warnings.empty())
@@ -51,7 +57,8 @@ void add(JunitSuite& suite, const CheckResult& result) {
     if (!result.error.empty())
         suite.add(result.file, "budget", Outcome::error, result.error);
     else
-        suite.add(result.file, "budget", Outcome::skipped, "no [budget]");
+        suite.add(result.file, "budget", result.has_budget ? Outcome::failed : Outcome::skipped,
+                  why_no_lines(result));
 }
 
 std::string to_junit(const std::vector<CheckResult>& all) {
@@ -85,8 +92,8 @@ std::int64_t steps_of(const Scene& scene) {
 /// Throws Error{diverged} if the energy is not finite after all steps, at the first such tick.
 void require_finite_energy(const World& end, World start) {
     if (std::isfinite(end.energy().total())) return;
-    for (; start.tick() < end.tick(); start.step()) require_finite(start.energy(), start);
-    require_finite(end.energy(), end);
+    for (; start.tick() < end.tick(); start.step()) start.require_finite(start.energy());
+    end.require_finite(end.energy());
 }
 
 /// Runs the scene for its duration. Returns the message of a divergence, or an empty text.
@@ -118,6 +125,7 @@ CheckResult check(const std::filesystem::path& path, bool quiet) {
     CheckResult result{.file = path.string()};
     try {
         const Scene scene = read_scene(path.string());
+        result.has_budget = !scene.budget.is_empty();
         World world = make_world(scene, Settings{scene.stepping});
         world.require_applicable();
         result.warnings = world.preflight();
@@ -151,7 +159,7 @@ std::string text_of(const std::vector<CheckResult>& all, bool quiet) {
         if (!result.divergence.empty())
             text += fmt::format("{}: {}\n", result.file, result.divergence);
         if (result.lines.empty() && result.error.empty())
-            text += fmt::format("{}: no [budget]\n", result.file);
+            text += fmt::format("{}: {}\n", result.file, why_no_lines(result));
         for (const BudgetEntry& line : result.lines)
             text += fmt::format("{}: {}\n", result.file, line.words);
     }

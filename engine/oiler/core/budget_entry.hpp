@@ -14,8 +14,8 @@ struct BudgetEntry {
     std::string words{};  ///< the entry as a sentence
     double floor = 0;     ///< the smallest error that can be measured
 
-    /// Whether the error is only known to be below `measured`.
-    [[nodiscard]] bool is_limit() const { return measured == floor; }
+    /// Whether the error is only known to be below `measured`. Where the floor is 0, it is 0.
+    [[nodiscard]] bool is_limit() const { return measured == floor && floor > 0; }
 };
 
 }  // namespace oiler

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "oiler/stability/risks.hpp"
 
@@ -66,7 +67,8 @@ bool is_finite(const Bodies& bodies) {
         if (!std::isfinite(squared_length(bodies.position(row))) ||
             !std::isfinite(squared_length(bodies.velocity(row))))
             return false;
-    return true;
+    // A body on an attractor has an energy of −∞.
+    return bodies.energy().total() < std::numeric_limits<double>::infinity();
 }
 
 std::vector<Risk> find_risks(const Bodies& bodies, const Method& method, const Steps& steps) {

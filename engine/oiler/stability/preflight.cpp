@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -146,9 +147,11 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
     const auto own = std::find_if(risks.begin(), risks.end(), [&](const Risk& risk) {
         return labels[risk.row] == labels[at.row];
     });
-    if (own != risks.end() && own->of == Risk::Of::on_attractor)
-        return fmt::format("{}; if it moved there, {}", describe(*own, method, steps, name),
-                           by_default);
+    if (own != risks.end() && own->of == Risk::Of::on_attractor) {
+        const std::string cause = describe(*own, method, steps, name);
+        const bool is_start = at.tick == 1;
+        return is_start ? cause : fmt::format("{}; if it moved there, {}", cause, by_default);
+    }
     if (risks.empty() || at.of == Divergence::Of::solution) return by_default;
     const Risk& cause = own == risks.end() ? risks.front() : *own;
     // The orbit of a body that hit its attractor is no longer known.
@@ -156,6 +159,38 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
     if (cause.of == Risk::Of::quadratic_drag && std::isfinite(cause.damping_dt))
         return describe_grown_drag(cause, method, steps, name);
     return describe(cause, method, steps, name);
+}
+
+double length_of(const Vec3& vector) { return std::hypot(vector[0], vector[1], vector[2]); }
+
+/// The body whose own energy is not finite. Of several, and where links alone overflow, the
+/// fastest, or the farthest from the origin.
+std::size_t row_of_overflow(const Bodies& bodies, bool by_speed) {
+    std::size_t worst = 0;
+    std::pair most(false, -1.0);
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        const double energy = alone(bodies, row, bodies.precision()).energy().total();
+        const std::pair size(!std::isfinite(energy),
+                             length_of(by_speed ? bodies.velocity(row) : bodies.position(row)));
+        if (size <= most) continue;
+        most = size;
+        worst = row;
+    }
+    return worst;
+}
+
+/// The cause of an energy that is infinite at the start.
+std::string describe_start(const Energy& energy, const Bodies& bodies, const NameOfRow& name) {
+    const bool is_fast = !std::isfinite(energy.kinetic);
+    const std::size_t row = row_of_overflow(bodies, is_fast);
+    if (is_fast)
+        return fmt::format(
+            "body {} moves at {:.3g} m/s, too fast for a finite energy: give it a lower speed",
+            name(row), length_of(bodies.velocity(row)));
+    return fmt::format(
+        "body {} is {:.3g} m from the origin, too far for a finite energy: place it nearer, or "
+        "give it weaker forces",
+        name(row), length_of(bodies.position(row)));
 }
 
 }  // namespace
@@ -198,6 +233,23 @@ void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& met
                    const Steps& steps, const NameOfRow& name) {
     const std::string where = describe(at, method, steps.rate, bodies.link_count() > 0, name);
     fail(Exit::diverged, "{}; {}", where, likely_cause(bodies, at, method, steps, name));
+}
+
+void require_finite(const Energy& energy, const Bodies& bodies, const Method& method,
+                    const Steps& steps, const NameOfRow& name) {
+    if (std::isfinite(energy.total())) return;
+    const bool is_start = steps.first == 0;
+    const bool is_on_attractor = energy.total() < 0;
+    if (is_start && !is_on_attractor)
+        fail(Exit::diverged, "the energy is not finite at the start: {}",
+             describe_start(energy, bodies, name));
+    const std::size_t row = row_of_overflow(bodies, true);
+    const std::string cause = likely_cause(
+        bodies, {steps.first + 1, row, 0, Divergence::Of::velocity}, method, steps, name);
+    if (is_start) fail(Exit::diverged, "the energy is not finite at the start: {}", cause);
+    fail(Exit::diverged,
+         "the energy is no longer finite at tick {}: body {} moves at {:.3g} m/s; {}", steps.first,
+         name(row), length_of(bodies.velocity(row)), cause);
 }
 
 }  // namespace oiler

@@ -97,4 +97,9 @@ void add_distortions(const Bodies& bodies, const Method& method, const Steps& st
 [[noreturn]] void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,
                                 const Steps& steps, const NameOfRow& name);
 
+/// Throws Error{diverged} if the energy of the bodies before the steps is not finite, with the
+/// tick, the body and the likely cause. Squares overflow before the state does.
+void require_finite(const Energy& energy, const Bodies& bodies, const Method& method,
+                    const Steps& steps, const NameOfRow& name);
+
 }  // namespace oiler

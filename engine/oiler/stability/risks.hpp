@@ -22,6 +22,7 @@ inline constexpr double highest_rate = StepClock::largest_rate;
 [[nodiscard]] bool is_attraction(const Risk& risk);
 [[nodiscard]] bool is_rounding(const Risk& risk);
 
+/// Whether neither the state nor its squares and its energy overflow.
 [[nodiscard]] bool is_finite(const Bodies& bodies);
 /// Whether all forces are linear in position and velocity, apart from drives.
 [[nodiscard]] bool is_linear(const Bodies& bodies);

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -57,6 +58,8 @@ void apply_word(const std::string& word, Stepping& stepping, Named& named) {
     } else if (const auto damping = find_damping(word)) {
         require_first(named.damping, word);
         stepping.damping = damping;
+    } else if (std::isdigit(static_cast<unsigned char>(word.front())) != 0) {
+        fail(Exit::usage, "'{}': expected a whole rate in Hz, for example 60", word);
     } else {
         require_first(named.method, word);
         stepping.method = &find_method(word);

@@ -342,6 +342,11 @@ void World::step(std::int64_t count) {
         fail_diverged(*bodies_, *at, *settings_.stepping.method, steps, name_of_row());
 }
 
+void World::require_finite(const Energy& energy) const {
+    oiler::require_finite(energy, *bodies_, *settings_.stepping.method, next_steps(1),
+                          name_of_row());
+}
+
 std::optional<Divergence> World::try_step(std::int64_t count) {
     require(count >= 0, "the number of steps is not negative");
     require(visits_ == 0, "a world is not stepped inside its own each");

@@ -319,6 +319,8 @@ public:
     /// Steps all bodies `count` times. Results do not depend on the number of steps per call.
     /// Throws Error{diverged}.
     void step(std::int64_t count = 1);
+    /// Throws Error{diverged} with the likely cause if `energy`, that of this world, is not finite.
+    void require_finite(const Energy& energy) const;
     /// Like step, but returns the first divergence without searching for its cause. The world is
     /// unusable after a divergence, but for its tick: that of the last step before it.
     [[nodiscard]] std::optional<Divergence> try_step(std::int64_t count = 1);
