@@ -48,10 +48,11 @@ TEST(JumpDemo, TheSliderSetsTheFirstRateAtOnce) {
     EXPECT_FALSE(holds(dragged[1], "\nmisses\n"));
 }
 
-// They jump at 0.75 s and rise for 0.45 s.
+// Somebody plays at once: they jump at 0.75 s and rise for 0.45 s.
 TEST(JumpRatesDemo, JudgesNoJumpBeforeItsApex) {
     const Folder folder;
-    const auto texts = texts_of("jump_rates" + with_script(folder, "180 press Space\n"), 3);
+    const auto texts =
+        texts_of("jump_rates" + with_script(folder, "1 press Left\n180 press Space\n"), 3);
     EXPECT_FALSE(holds(texts[1], "cm too")) << texts[1];
     EXPECT_TRUE(holds(texts[2], "cm too")) << texts[2];
 }

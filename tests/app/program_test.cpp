@@ -51,7 +51,7 @@ TEST(Program, OsmesaAndEglDrawTheSamePixels) {
 // above its limit of b/k = 1/150 s.
 TEST(Program, WarnsOfASpringThatTheMethodCannotFollow) {
     const Outcome coarse = shell("spring_damper --steps 1 --rate 1", 0);
-    EXPECT_TRUE(holds(coarse.err, "spring of body 0: ω·dt = 3.873"));
+    EXPECT_TRUE(holds(coarse.err, "spring of body 'mass': ω·dt = 3.873"));
     EXPECT_TRUE(holds(coarse.err, "rate ≥ 2 Hz, or implicit_midpoint"));
     const Outcome euler = shell("spring_damper --steps 1 --method explicit_euler");
     EXPECT_TRUE(holds(euler.err, "rate ≥ 151 Hz"));
@@ -244,7 +244,7 @@ TEST(Program, DivergedRunNamesStepBodyAndFieldAndKeepsItsTrace) {
             quoted(folder / "t.csv"),
         5);
     EXPECT_TRUE(is_one_line(run.err)) << run.err;
-    for (const char* word : {"step", "body 0", "explicit_euler"}) EXPECT_TRUE(holds(run.err, word));
+    for (const char* word : {"step", "body 'mass'", "explicit_euler"}) EXPECT_TRUE(holds(run.err, word));
     const std::string trace = text_of(folder / "t.csv");
     EXPECT_EQ(trace.back(), '\n');
     EXPECT_FALSE(holds(trace, "inf"));
@@ -285,7 +285,7 @@ TEST(Program, AnEnergyThatOverflowsIsADivergence) {
     EXPECT_EQ(report["energy"]["first"]["total"], 7.5e6);
     EXPECT_EQ(report["energy"]["last"], nullptr);
     EXPECT_TRUE(
-        holds(run.err, fmt::format("at tick {}: body 0 moves at ", report["steps"].get<int>())));
+        holds(run.err, fmt::format("at tick {}: body 'mass' moves at ", report["steps"].get<int>())));
     EXPECT_EQ("spring_damper: " + report["diverged"].get<std::string>() + "\n", run.err);
     const Outcome without = shell(line, 5);
     EXPECT_EQ(without.err, run.err);
