@@ -42,7 +42,7 @@ std::vector<fs::path> folders_of(const char* source) {
     return folders;
 }
 
-/// The first of the files that exists; else the path itself.
+/// The first file that exists; the path itself if none does.
 fs::path find_file(const fs::path& path, const std::vector<fs::path>& folders) {
     for (const fs::path& folder : folders)
         if (std::error_code none; fs::exists(folder / path, none)) return folder / path;

@@ -201,7 +201,7 @@ struct SceneCamera {
     friend bool operator==(const SceneCamera&, const SceneCamera&) = default;
 };
 
-/// What is drawn beside the bodies. The motion does not depend on it.
+/// Drawn beside the bodies. The motion does not depend on it.
 struct SceneView {
     Colour background = palette::paper;
     std::optional<double> trails{};   ///< s, the part of a body's path that is drawn

@@ -134,7 +134,7 @@ std::string end_text(const WhatIf& measured, double begin) {
     return fmt::format(" After {:.1f} s the true motion is not known.", until);
 }
 
-/// What is known of a distance that is only known to be below a limit above a pixel.
+/// Describes a distance that is only known to be below a limit, which is above a pixel.
 std::string limit_text(const WhatIf& measured, double begin, const std::string& setting) {
     const WhatIfRun& played = measured.runs.front();
     const std::string limit = length_text(measured.error_of(played).limit());

@@ -74,7 +74,7 @@ struct WhatIf {
     [[nodiscard]] KnownError error_of(const WhatIfRun& run) const {
         return {run.distance, uncertainty};
     }
-    /// Its grade: where the largest distance is not certain, a pixel may be.
+    /// Its grade. An error whose size is not certain may be more than a pixel for certain.
     [[nodiscard]] Grade grade_of(const WhatIfRun& run) const {
         const Grade grade = error_of(run).grade(pixel);
         return grade == Grade::unknown && run.visible_from ? Grade::visible : grade;
@@ -98,9 +98,9 @@ struct WhatIf {
 /// Bodies are compared at the beginning of each recorded step, if the run has a step then, and as
 /// they are drawn, at 16 instants of each recorded step, on straight lines between the run's steps.
 /// Bodies are the same if their entities are. A run is another play once its bodies, teleports,
-/// restarts or whole-number readings have differed for 0.25 s, and a step of its own if no step of
-/// it begins then: a shorter difference is a delay.
-/// While they differ, no body is compared.
+/// restarts or whole-number readings have differed for 0.25 s, at recorded steps where it has none
+/// for one step of its own longer: a shorter difference is a delay. While they differ, no body is
+/// compared.
 ///
 /// A run at slightly less than half of the reference's rate checks the reference, which is
 /// uncertain once that run is another play, or further away than a pixel. A pixel is 1/720 of the

@@ -249,7 +249,7 @@ private:
             }
             if (!pressed) break;
             support.planes_[support.count_++] = pressed;
-            // Only one, into which the body is pressed.
+            // The only touch bears the body.
             if (std::size(touches) == 1) break;
             // Between opposite obstacles there is no direction to push the body out.
             if (std::isfinite(largest(support.reactions(push, excess)))) continue;
