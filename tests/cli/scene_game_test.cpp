@@ -256,6 +256,21 @@ std::vector<Point> path_of(const AnyGame& game) {
     return points;
 }
 
+// At 1,000 Hz, a path of 2 s has a sample in every eighth step.
+TEST(SceneGame, TrailsDoNotChangeTheMotion) {
+    const auto hash_after_50 = [](const std::string& view) {
+        const Scene scene = parse_scene(
+            "[scene]\naxes = 2\nduration = 100.0\n[[body]]\nvelocity = [2.0, 0.0]\n" + view,
+            "view.toml");
+        Hand hand;
+        SceneGame run(held(scene), at(1000), false);
+        (void)run.step(0, 50, hand);
+        EXPECT_EQ(run.world().tick(), 50);
+        return run.state_hash();
+    };
+    EXPECT_EQ(hash_after_50("[view]\ntrails = 2.0\nfastest = 2.0\n"), hash_after_50(""));
+}
+
 // A ball of 2 m/s is at 4 m after 2 s; the path of the last second begins at 2 m.
 TEST(SceneGame, DrawsTrailsHoweverItIsStepped) {
     const Scene scene = parse_scene(

@@ -16,6 +16,10 @@ TEST(LengthText, HasTheUnitOfItsSize) {
     EXPECT_EQ(length_text(1.3e-5), "13 µm");
     EXPECT_EQ(length_text(0.0025), "2.5 mm");
     EXPECT_EQ(length_text(0.075), "7.5 cm");
+    EXPECT_EQ(length_text(9.8e-8), "98 nm");
+    EXPECT_EQ(length_text(9.94e-5), "99 µm");
+    EXPECT_EQ(length_text(0.0099), "9.9 mm");
+    EXPECT_EQ(length_text(0.994), "99 cm");
     EXPECT_EQ(length_text(0.997), "0.997 m");
     EXPECT_EQ(length_text(3.14159), "3.14 m");
     EXPECT_EQ(length_text(999.7), "1000 m");

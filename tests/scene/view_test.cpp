@@ -224,12 +224,5 @@ TEST(View, ThereAreNoArrowsWhereWindsDifferOrAreLeftOut) {
         Played(scene_of(wind_on("a") + "[view]\nwind = false\n")).picture().polygons.empty());
 }
 
-TEST(View, DoesNotChangeTheMotion) {
-    Played plain(scene_of("")), shown(scene_of("[view]\ntrails = 2.0\nfastest = 2.0\n"));
-    plain.step(50);
-    shown.step_to_samples(50);
-    EXPECT_EQ(plain.world.state_hash(), shown.world.state_hash());
-}
-
 }  // namespace
 }  // namespace oiler::test
