@@ -64,6 +64,10 @@ mv "$folder/installed" "$prefix"
 for place in "$build" "$source/" "$folder/installed"; do
     if grep -rlF -- "$place" "$prefix"; then fail "the above have the absolute path $place"; fi
 done
+# A compiler's cache may have compiled them in another folder.
+if grep -rlE '/engine/oiler/[a-z_/]+\.cpp' "$prefix"; then
+    fail "the above have the path of a source file"
+fi
 config=$(dirname "$(find "$prefix" -name oiler-config.cmake)")
 libraries=$(dirname "$(dirname "$config")")
 "$prefix/bin/oiler" --version > /dev/null

@@ -148,7 +148,8 @@ std::vector<std::shared_ptr<const Bitmap>> load_pictures(const std::vector<Start
     for (const Startable& one : all) {
         pictures.emplace_back();
         try {
-            if (!one.picture.empty()) pictures.back() = load_bitmap(one.picture);
+            // its path is whole; an installed program names no folder of its source
+            if (!one.picture.empty()) pictures.back() = load_bitmap(one.picture, "");
         } catch (const Error&) {  // the menu works without it
         }
     }
