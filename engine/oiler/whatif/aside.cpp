@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/whatif/aside.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace oiler {
@@ -9,19 +11,22 @@ Aside::Aside() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void Aside::begin(AlongFrom from) {
     const std::lock_guard lock(mutex_);
-    mail_ = {.from = std::move(from)};
-    figures_ = {};
+    if (from.may_repeat)
+        figures_.begin_repeat();
+    else
+        figures_ = {};
+    mail_.push_back({.from = std::move(from)});
     posted_.notify_one();
 }
 
 void Aside::add(const Recording::Event& event) {
     const std::lock_guard lock(mutex_);
-    mail_.events.push_back(event);
+    mail_.back().events.push_back(event);
 }
 
 LiveFigures Aside::play_until(std::int64_t steps, std::chrono::nanoseconds time) {
     std::unique_lock lock(mutex_);
-    if (std::exchange(mail_.steps, steps) != steps) posted_.notify_one();
+    if (std::exchange(mail_.back().steps, steps) != steps) posted_.notify_one();
     published_.wait_for(lock, time,
                         [&] { return figures_.played > steps || figures_.has_stopped; });
     return figures_;
@@ -30,19 +35,22 @@ LiveFigures Aside::play_until(std::int64_t steps, std::chrono::nanoseconds time)
 void Aside::run(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (wait(lock, stop)) {
-        Posted posted{.from = std::exchange(mail_.from, std::nullopt),
-                      .events = std::exchange(mail_.events, {}),
-                      .steps = mail_.steps};
+        std::vector<Posted> posted(1);
+        posted.back().steps = mail_.back().steps;
+        posted.swap(mail_);
         lock.unlock();
-        work(std::move(posted));
+        for (Posted& one : posted) take(std::move(one));
+        work();
         lock.lock();
-        if (!mail_.from) figures_ = along_->figures();
+        if (mail_.size() == 1) figures_ = known();
         published_.notify_one();
     }
 }
 
 bool Aside::wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
-    const auto has_work = [&] { return mail_.from || (along_ && along_->is_behind(mail_.steps)); };
+    const auto has_work = [&] {
+        return mail_.size() > 1 || next_ || (along_ && along_->is_behind(mail_.back().steps));
+    };
     if (along_ && !along_->is_judged())
         posted_.wait_until(lock, stop, next_verdict_, has_work);
     else
@@ -50,16 +58,42 @@ bool Aside::wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop
     return !stop.stop_requested();
 }
 
-void Aside::work(Posted posted) {
+void Aside::take(Posted posted) {
+    if (posted.from) {
+        next_ = std::move(posted);
+    } else if (next_) {
+        next_->steps = posted.steps;
+        std::ranges::move(posted.events, std::back_inserter(next_->events));
+    } else if (along_) {
+        along_->has_come_to(posted.steps);
+        for (const Recording::Event& event : posted.events) along_->add(event);
+    }
+}
+
+bool Aside::goes_on_before_next() const {
+    return next_->from->may_repeat && along_ && along_->is_behind() && along_->can_repeat() &&
+           !has_player_input(next_->events);
+}
+
+void Aside::work() {
     constexpr std::chrono::milliseconds time_of_verdict{100};
-    if (posted.from) along_ = std::make_unique<PlayAlong>(std::move(*posted.from), along_.get());
-    for (const Recording::Event& event : posted.events) along_->add(event);
-    along_->has_come_to(posted.steps);
-    if (along_->is_behind(posted.steps)) along_->take_step();
+    if (next_ && !goes_on_before_next()) {
+        along_ = std::make_unique<PlayAlong>(std::move(*next_->from), along_.get());
+        Posted begun = *std::exchange(next_, std::nullopt);
+        begun.from.reset();
+        take(std::move(begun));
+    }
+    if (along_->is_behind()) along_->take_step();
     if (const Clock::time_point now = Clock::now(); now >= next_verdict_) {
         along_->judge();
         next_verdict_ = now + time_of_verdict;
     }
+}
+
+LiveFigures Aside::known() const {
+    LiveFigures figures = along_->figures();
+    if (next_) figures.begin_repeat();
+    return figures;
 }
 
 }  // namespace oiler

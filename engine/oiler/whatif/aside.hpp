@@ -23,7 +23,8 @@ public:
     Aside(const Aside&) = delete;
     Aside& operator=(const Aside&) = delete;
 
-    /// Begins anew, after the step that is being played. What was known is dropped.
+    /// Begins anew, after the step that is being played. What was known is dropped, unless a round
+    /// is repeated: that is first played along to its end, until the next has input.
     void begin(AlongFrom from);
     void add(const Recording::Event& event);
     /// The game has taken that many steps. Waits until all are played along, but not longer than
@@ -35,7 +36,7 @@ private:
 
     /// What the game's thread has posted.
     struct Posted {
-        std::optional<AlongFrom> from{};  ///< to begin with
+        std::optional<AlongFrom> from{};  ///< to begin with; empty: goes on
         std::vector<Recording::Event> events{};
         std::int64_t steps = 0;
     };
@@ -43,17 +44,23 @@ private:
     void run(const std::stop_token& stop);
     /// Waits for what to do next; returns whether there is anything.
     bool wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+    void take(Posted posted);
+    /// Whether the round that is played along is worth its end before the next begins.
+    [[nodiscard]] bool goes_on_before_next() const;
     /// Plays a step along, or begins.
-    void work(Posted posted);
+    void work();
+    [[nodiscard]] LiveFigures known() const;
 
     std::mutex mutex_;
     std::condition_variable_any posted_;
     std::condition_variable published_;
-    Posted mail_;
+    std::vector<Posted> mail_ = std::vector<Posted>(1);  ///< never empty; the last one grows
     LiveFigures figures_;
 
-    std::unique_ptr<PlayAlong> along_;  ///< of the thread alone
-    Clock::time_point next_verdict_{};  ///< of the thread alone
+    // Of the thread alone:
+    std::unique_ptr<PlayAlong> along_;
+    std::optional<Posted> next_;  ///< what is played along after that
+    Clock::time_point next_verdict_{};
     std::jthread thread_;
 };
 

@@ -13,17 +13,23 @@ namespace {
 
 constexpr std::size_t most_errors = 600;
 
-/// Whether a player did more than move the mouse, after the restart that began the round.
-bool has_input(const Recording& recording) {
+}  // namespace
+
+bool has_player_input(const std::vector<Recording::Event>& events) {
     using What = InputEvent::What;
-    return std::ranges::any_of(recording.events, [](const Recording::Event& one) {
+    return std::ranges::any_of(events, [](const Recording::Event& one) {
         const What what = one.event.what;
         const bool begins = what == What::restart && one.step == 0;
         return !begins && what != What::pointer && what != What::no_pointer && what != What::camera;
     });
 }
 
-}  // namespace
+void LiveFigures::begin_repeat() {
+    repeats = true;
+    played = 0;
+    errors.clear();
+    last.reset();
+}
 
 PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
     : play_(std::move(from.play)), is_start_(from.is_start) {
@@ -34,14 +40,11 @@ PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
         figures_ = before->figures_;
         return;
     }
-    const bool is_same_round = is_repeated && before->runs_ && !has_input(before->play_.recording);
+    const bool is_same_round = is_repeated && before->can_repeat();
     if (is_same_round) before->judge();
     if (is_same_round && before->figures_.measured) {
         figures_ = before->figures_;
-        figures_.repeats = true;
-        figures_.played = 0;
-        figures_.errors.clear();
-        figures_.last.reset();
+        figures_.begin_repeat();
     }
     try {
         const std::unique_ptr<AnyGame> game = from.make(play_.settings);
@@ -54,6 +57,10 @@ PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
     } catch (const std::exception& error) {
         stop(error.what());
     }
+}
+
+bool PlayAlong::can_repeat() const {
+    return is_start_ && runs_ && !has_player_input(play_.recording.events);
 }
 
 void PlayAlong::begin(const AnyGame& game) {
@@ -103,7 +110,7 @@ void PlayAlong::judge() {
     if (is_judged()) return;
     judged_ = figures_.played;
     WhatIf measured = runs_->result();
-    if (has_input(play_.recording)) figures_.repeats = false;
+    if (has_player_input(play_.recording.events)) figures_.repeats = false;
     if (figures_.repeats && measured.certain_until < figures_.measured->certain_until) return;
     figures_.repeats = false;
     figures_.verdict = judge_setting(measured, readings_, figures_.begin->time,

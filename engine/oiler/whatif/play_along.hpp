@@ -32,10 +32,16 @@ struct LiveFigures {
     std::vector<float> errors{};  ///< the largest of a body as drawn, in each of the last steps, m
     std::shared_ptr<const DrawnStep> last{};  ///< null if the true motion of that step is unknown
     bool has_stopped = false;                 ///< no more will be known
+
+    /// They become those of the last round, before the first step of one that repeats it.
+    void begin_repeat();
 };
 
 /// No game of more bodies is measured: it would be copied some nine times.
 inline constexpr std::size_t most_measured_bodies = 100'000;
+
+/// Whether a player did more than move the mouse, after the restart that began the round.
+[[nodiscard]] bool has_player_input(const std::vector<Recording::Event>& events);
 
 /// Where runs begin that play along with a game.
 struct AlongFrom {
@@ -63,6 +69,9 @@ public:
     [[nodiscard]] bool is_behind(std::int64_t steps) const {
         return runs_ && figures_.played <= steps;
     }
+    [[nodiscard]] bool is_behind() const { return is_behind(play_.recording.steps); }
+    /// Whether this is a whole round without input, which a next one may repeat.
+    [[nodiscard]] bool can_repeat() const;
     /// Plays a step along. Measuring stops if the runs cannot go on.
     void take_step();
     [[nodiscard]] bool is_judged() const { return !runs_ || figures_.played == judged_; }
