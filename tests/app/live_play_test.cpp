@@ -282,25 +282,68 @@ TEST(GameClocks, CatchUpTwoStepsUntilStepsAreTimed) {
 }
 
 // What plays along is made on another thread, but would take the time of the first frame.
-TEST_F(LivePlayTest, TheFirstFrameWaitsForNoCopyThatPlaysAlong) {
-    options.quiet = false;
+// A game of which copies are counted that measure what its timestep costs.
+struct MeasuredPlayTest : LivePlayTest {
     std::atomic<int> made = 0;
-    const MakeGame counted = [&](const Settings& settings) {
+    MakeGame counted = [&](const Settings& settings) {
         ++made;
         return std::make_unique<AnyGameOf<Walk>>(settings);
     };
-    GameRun other{.options = options,
-                  .about = Walk::about,
-                  .make = counted,
-                  .playback = playback,
-                  .live = live,
-                  .inputs = live};
+    About about = Walk::about;
+
+    GameRun measured() {
+        options.quiet = false;
+        return {.options = options,
+                .about = about,
+                .make = counted,
+                .playback = playback,
+                .live = live,
+                .inputs = live};
+    }
+    /// Plays until the copies have begun.
+    static void wait_for_copies(LivePlay& play, std::chrono::nanoseconds now) {
+        while (!play.figures()->begin) (void)play.play(now);
+    }
+};
+
+TEST_F(MeasuredPlayTest, TheFirstFrameWaitsForNoCopyThatPlaysAlong) {
+    GameRun other = measured();
     LivePlay first(other);
+    first.measure();
     (void)first.play(time);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_EQ(made, 0);
-    for (int i = 1; made == 0 || !first.figures()->begin; ++i) (void)first.play(time + i * period);
+    first.measure();
+    wait_for_copies(first, time + period);
+    EXPECT_GT(made, 0);
     EXPECT_EQ(first.figures()->begin->time, 0);
+}
+
+TEST_F(MeasuredPlayTest, WhatNobodySeesIsNotMeasured) {
+    GameRun other = measured();
+    LivePlay unseen(other);
+    for (int i = 0; i < 5; ++i) (void)unseen.play(time + i * period);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    unseen.control({.restarts = true}, false);
+    (void)unseen.play(time + 5 * period);
+    EXPECT_EQ(made, 0);
+    EXPECT_FALSE(unseen.figures()->begin);
+    unseen.measure();
+    const double now = game.world().time();
+    wait_for_copies(unseen, time + 5 * period);
+    EXPECT_EQ(unseen.figures()->begin->time, now);
+}
+
+TEST_F(MeasuredPlayTest, AGameThatIsMadeAnewIsMeasuredFromItsNextStart) {
+    about.changes_in_play = false;
+    GameRun other = measured();
+    LivePlay late(other);
+    for (int i = 0; i < 3; ++i) (void)late.play(time + i * period);
+    late.measure();
+    EXPECT_EQ(late.verdict().text, "what the timestep costs is measured from the next start: F9");
+    late.control({.restarts = true}, false);
+    wait_for_copies(late, time + 3 * period);
+    EXPECT_EQ(late.verdict().text.find("F9"), std::string::npos);
 }
 
 TEST_F(LivePlayTest, AQuietRunMeasuresNothing) {

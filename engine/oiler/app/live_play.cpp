@@ -139,7 +139,7 @@ void LivePlay::restart_with(const Stepping& stepping) {
         }))
         return;
     begin_setting();
-    if (what_if_) what_if_->start(playback_.steps(), stepping);
+    if (measures_) what_if_->start(playback_.steps(), stepping);
 }
 
 /// Changes to the wanted setting if that has a tick until `step`.
@@ -148,7 +148,7 @@ void LivePlay::change_until(std::int64_t step) {
     if (!is_possible([&] { has_changed = change_.make(playback_, step, past_.inputs()); })) return;
     if (!has_changed) return;
     begin_setting();
-    if (what_if_) what_if_->start_from(playback_.game(), playback_.steps());
+    if (measures_) what_if_->start_from(playback_.game(), playback_.steps());
 }
 
 /// Restarts the clock at the game's rate and forgets all earlier steps.
@@ -162,7 +162,7 @@ void LivePlay::begin_setting() {
 
 void LivePlay::restart() {
     restarted_at_ = playback_.steps();
-    if (what_if_) what_if_->repeat(restarted_at_);
+    if (measures_) what_if_->repeat(restarted_at_);
     divergence_.reset();
     past_.leave();
     if (playback_.game().takes_input()) return run_.live.queue.restart();
@@ -170,15 +170,24 @@ void LivePlay::restart() {
     past_.forget(restarted_at_);
 }
 
-/// Begins with the second frame: the copies that play along would delay the first one. No step was
-/// taken before.
-void LivePlay::begin_measuring() {
-    if (std::exchange(has_shown_, true) && what_if_ && !what_if_->has_begun())
-        what_if_->start(playback_.steps());
+void LivePlay::measure() {
+    if (!what_if_ || !has_shown_ || std::exchange(measures_, true)) return;
+    if (playback_.steps() == 0)
+        what_if_->start(0);
+    else
+        measure_from_here("what the timestep costs is measured from the next start: F9");
+}
+
+/// `else_reason` is shown if the game's setting cannot be changed while it is played.
+void LivePlay::measure_from_here(const char* else_reason) {
+    if (run_.about.changes_in_play)
+        what_if_->start_from(playback_.game(), playback_.steps());
+    else
+        what_if_->stop(else_reason);
 }
 
 Picture& LivePlay::play(std::chrono::nanoseconds time) {
-    begin_measuring();
+    has_shown_ = true;
     const bool goes_back = past_.goes_back();
     run_.live.queue.set_paused(clock_.is_paused() || goes_back);
     const std::int64_t due = clock_.advance(time);
@@ -195,7 +204,7 @@ Picture& LivePlay::play(std::chrono::nanoseconds time) {
     if (due > 0)
         clock_.limit_steps(due, std::chrono::nanoseconds(run_.times.update + run_.times.step));
     const Span span(run_.profile, "play along");
-    if (what_if_) what_if_->play_until(past_.is_in_past() ? past_.last() : playback_.steps());
+    if (measures_) what_if_->play_until(past_.is_in_past() ? past_.last() : playback_.steps());
     return picture;
 }
 
@@ -228,11 +237,8 @@ void LivePlay::go_back_to(std::int64_t step) {
 
 void LivePlay::play_on_from_past() {
     past_.leave();
-    if (!what_if_) return;
-    if (run_.about.changes_in_play)
-        what_if_->start_from(playback_.game(), playback_.steps());
-    else
-        what_if_->stop("what the timestep costs is no longer measured: you went back");
+    if (measures_)
+        measure_from_here("what the timestep costs is no longer measured: you went back");
 }
 
 LivePlay::State LivePlay::state() const {
@@ -286,7 +292,7 @@ Verdict LivePlay::verdict() const {
 }
 
 std::vector<Ghost> LivePlay::ghosts() const {
-    if (!what_if_ || past_.is_in_past()) return {};
+    if (!measures_ || past_.is_in_past()) return {};
     return what_if_->ghosts(playback_.steps(), alpha());
 }
 

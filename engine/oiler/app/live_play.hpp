@@ -89,6 +89,9 @@ public:
     /// The run must outlive it.
     explicit LivePlay(GameRun& run);
 
+    /// From now on, the errors of the timestep are measured, because the user sees them; not before
+    /// the second frame, because the copies that play along would delay the first one.
+    void measure();
     /// Pauses or resumes, and changes the pace.
     void set_pace(const Requests& requests);
     /// Goes on with another setting, or makes the game anew with it.
@@ -129,7 +132,7 @@ public:
 
 private:
     [[nodiscard]] Picture& next_picture();
-    void begin_measuring();
+    void measure_from_here(const char* else_reason);
     void restart();
     void restart_with(const Stepping& stepping);
     void change_until(std::int64_t step);
@@ -145,6 +148,7 @@ private:
     std::optional<LiveWhatIf> what_if_;
     std::optional<InputTap> tap_;  ///< of what_if_
     bool has_shown_ = false;       ///< a frame
+    bool measures_ = false;        ///< with what_if_
     WayBack past_;
     PendingSetting change_;
     std::optional<std::int64_t> seeked_;  ///< the step that the time line shows in this frame

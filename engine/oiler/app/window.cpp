@@ -144,6 +144,7 @@ void GameWindow::take_from_shelf() {
 }
 
 void GameWindow::draw(const Requests& requests, const Input& keys, std::chrono::nanoseconds now) {
+    if (panels_.inspector || has_line()) play_.measure();
     Picture& picture = play_.play(now);
     const std::size_t bodies = run_.playback.world().body_count();
     is_measured_ = bodies <= most_measured_bodies && (is_measured_ || bodies > 0);
@@ -232,10 +233,14 @@ void GameWindow::present(Picture& picture, const Picture& overlay, const std::st
     window_->present();
 }
 
+/// Whether the player sees what the timestep costs while the inspector is closed.
+bool GameWindow::has_line() const {
+    return !run_.options.quiet && !run_.options.no_line && run_.about.has_line &&
+           run_.about.fixed_setting.empty();
+}
+
 GameWindow::Layout GameWindow::layout() const {
-    const bool has_line = !run_.options.quiet && !run_.options.no_line && run_.about.has_line;
-    const bool has_verdict =
-        is_measured_ && has_line && !panels_.inspector && run_.about.fixed_setting.empty();
+    const bool has_verdict = is_measured_ && has_line() && !panels_.inspector;
     return {window_->size(), panels_.inspector, has_verdict};
 }
 

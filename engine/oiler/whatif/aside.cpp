@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "oiler/process/priority.hpp"
+
 namespace oiler {
 
 Aside::Aside() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
@@ -33,6 +35,7 @@ LiveFigures Aside::play_until(std::int64_t steps, std::chrono::nanoseconds time)
 }
 
 void Aside::run(const std::stop_token& stop) {
+    lower_priority_of_thread();
     std::unique_lock lock(mutex_);
     while (wait(lock, stop)) {
         std::vector<Posted> posted(1);

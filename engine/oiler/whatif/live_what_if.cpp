@@ -8,7 +8,7 @@
 namespace oiler {
 namespace {
 
-constexpr std::chrono::microseconds time_of_frame{300};
+constexpr std::chrono::microseconds time_of_frame{200};  // a timer is late by some 0.1 ms
 
 }  // namespace
 
@@ -54,7 +54,6 @@ void LiveWhatIf::start_from(const AnyGame& game, std::int64_t first) {
 void LiveWhatIf::measure(std::int64_t first, AlongFrom from) {
     first_ = first;
     before_ = {};
-    has_begun_ = true;
     is_measuring_ = pace_ == Pace::own || aside_;
     if (aside_) {
         aside_->begin(std::move(from));

@@ -25,7 +25,6 @@ public:
     LiveWhatIf(const LiveWhatIf&) = delete;
     LiveWhatIf& operator=(const LiveWhatIf&) = delete;
 
-    [[nodiscard]] bool has_begun() const { return has_begun_; }
     /// Begins with a new game, before its step `first`.
     void start(std::int64_t first);
     /// Begins with a new game and another setting.
@@ -58,7 +57,6 @@ private:
     const MakeGame& make_;
     Pace pace_;
     RecordedPlay play_;  ///< without events
-    bool has_begun_ = false;
     bool is_measuring_ = false;
     std::int64_t first_ = 0;
     Input before_{};
