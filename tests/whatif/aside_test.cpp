@@ -18,6 +18,7 @@ struct HeldFall {
     static constexpr About about{.name = "fall", .title = "Fall", .rate = 60};
     static inline std::atomic<bool> waits = false;
     static inline std::atomic<bool> goes = false;
+    static inline std::atomic<double> latest = 0;  ///< time of a step in any run, s
 
     World world;
     explicit HeldFall(const Settings& settings) : world(1, settings) {
@@ -28,6 +29,7 @@ struct HeldFall {
         waits = true;
         waits.notify_all();
         goes.wait(false);
+        latest = std::max(latest.load(), world.time());
     }
     static void let_go() {
         goes = true;
@@ -66,6 +68,7 @@ struct Lag : testing::Test {
 
     Lag() {
         HeldFall::waits = HeldFall::goes = false;
+        HeldFall::latest = 0;
         aside.begin(start(false));
         (void)aside.play_until(12, milliseconds(0));
         HeldFall::waits.wait(false);
@@ -90,6 +93,7 @@ TEST_F(Lag, ARoundWithInputIsMeasuredAtOnce) {
     LiveFigures figures = figures_after(aside, 3, false);
     ASSERT_TRUE(figures.measured);
     EXPECT_NEAR(figures.measured->runs.front().distance, off_after(3), 1e-12);
+    EXPECT_LT(HeldFall::latest, 4 / 60.0) << "the first round was left";
     aside.begin(start(true));
     figures = figures_after(aside, 2, false);
     EXPECT_EQ(figures.played, 3);
@@ -106,6 +110,7 @@ TEST_F(Lag, AnotherSettingIsMeasuredAtOnce) {
     const LiveFigures figures = figures_after(aside, 6, false);
     ASSERT_TRUE(figures.measured);
     EXPECT_NEAR(figures.measured->runs.front().distance, off_after(3) / 2, 1e-12);
+    EXPECT_LT(HeldFall::latest, 4 / 60.0) << "the first round was left";
 }
 
 }  // namespace

@@ -43,6 +43,10 @@ struct OnePress final : InputSource {
 
 const Stepping euler{.method = &find_method("semi_implicit_euler"), .rate = {60}};
 
+struct NoPress final : InputSource {
+    Input next(std::int64_t) override { return {}; }
+};
+
 /// A game that is played while what it costs is measured, in the time that this needs.
 template <class G = Fall, class Player = OnePress>
 struct Measured {
@@ -158,6 +162,41 @@ TEST(LiveWhatIf, ProvesTheAdvisedRateInTheNextRun) {
     along.play_until(25);
     EXPECT_EQ(along.figures().measured->runs.size(), usual)
         << "of another setting, nothing is known";
+}
+
+/// Many bodies fall side by side.
+template <int bodies>
+struct Rain {
+    static constexpr About about{.name = "rain", .title = "Rain", .rate = 60};
+    World world;
+    explicit Rain(const Settings& settings) : world(1, settings) {
+        for (int i = 0; i < bodies; ++i) (void)world.spawn(Body{});
+        world.set_gravity({-20});
+    }
+    void update(const Input&) {}
+    [[nodiscard]] Picture picture() const { return {.camera = {.height = 7.2F}}; }
+};
+
+template <class G>
+void expect_chord_of_a_fall(std::int64_t rate) {
+    Measured<G, NoPress> measured({.method = &find_method("velocity_verlet"), .rate = {rate}});
+    measured.game.step(0, 2, measured.tap);
+    measured.along.play_until(2);
+    const double chord = 20.0 / static_cast<double>(rate * rate) / 8;
+    const LiveFigures& figures = measured.along.figures();
+    EXPECT_NEAR(figures.measured->runs.front().distance, chord, 1e-14);
+    EXPECT_NEAR(figures.errors.back(), chord, 1e-9);
+    const std::vector<Ghost> ghosts = measured.along.ghosts(2, 0.5);
+    ASSERT_EQ(ghosts.size(), most_ghosts);
+    EXPECT_NEAR(ghosts.front().truth[0] - ghosts.front().at[0], chord, 1e-14);
+}
+
+// A line between two steps is off by a·dt²/8 in its middle.
+TEST(LiveWhatIf, ComparesManyBodiesInTheMiddleOfEachStep) {
+    for (const std::int64_t rate : {50, 60, 240, 600, 1000}) {
+        expect_chord_of_a_fall<Rain<101>>(rate);
+        expect_chord_of_a_fall<Rain<2001>>(rate);
+    }
 }
 
 struct MovesTheMouse final : InputSource {

@@ -15,29 +15,45 @@ bool is_same_body(const Moment::Placed& one, const Moment::Placed& other) {
     return one.entity == other.entity && one.jumps == other.jumps;
 }
 
-}  // namespace
-
-Moment moment_of(const AnyGame& game) {
-    const World& world = game.world();
-    Moment moment{.cuts = game.cuts(), .quits = game.loop().quits()};
-    for (std::size_t row = 0; row < world.body_count(); ++row) {
-        const Entity entity = world.entity_of_row(row);
-        moment.bodies.push_back({entity, world.jumps(entity), world.position_of_row(row)});
-    }
-    std::ranges::sort(moment.bodies, {},
-                      [](const Moment::Placed& body) { return body.entity.id(); });
-    moment.readings = game.readings();
-    return moment;
-}
-
-bool is_same_play(const Moment& a, const Moment& b) {
+bool is_same_but_bodies(const Moment& a, const Moment& b) {
     const auto same_count = [](const Reading& one, const Reading& other) {
         const bool counts = is_whole(one.value) && is_whole(other.value);
         return one.name == other.name && (!counts || one.value == other.value);
     };
     return a.cuts == b.cuts && a.quits == b.quits &&
-           std::ranges::equal(a.bodies, b.bodies, is_same_body) &&
            std::ranges::equal(a.readings, b.readings, same_count);
+}
+
+std::uint64_t id_of(const Moment::Placed& body) { return body.entity.id(); }
+
+/// Null if the moment has none.
+const Moment::Placed* same_body(const Moment& moment, const Moment::Placed& body) {
+    const auto found = std::ranges::lower_bound(moment.bodies, id_of(body), {}, id_of);
+    return found != moment.bodies.end() && is_same_body(*found, body) ? &*found : nullptr;
+}
+
+Vec3 place(const Moment::Placed& from, const Moment::Placed& to, double alpha) {
+    return from.position + (to.position - from.position) * alpha;
+}
+
+}  // namespace
+
+Moment moment_of(const AnyGame& game) {
+    const World& world = game.world();
+    Moment moment{.cuts = game.cuts(), .quits = game.loop().quits()};
+    moment.bodies.reserve(world.body_count());
+    for (std::size_t row = 0; row < world.body_count(); ++row) {
+        const Entity entity = world.entity_of_row(row);
+        moment.bodies.push_back({entity, world.jumps(entity), world.position_of_row(row)});
+    }
+    if (!std::ranges::is_sorted(moment.bodies, {}, id_of))
+        std::ranges::sort(moment.bodies, {}, id_of);
+    moment.readings = game.readings();
+    return moment;
+}
+
+bool is_same_play(const Moment& a, const Moment& b) {
+    return is_same_but_bodies(a, b) && std::ranges::equal(a.bodies, b.bodies, is_same_body);
 }
 
 std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies(const Moment& a,
@@ -45,7 +61,7 @@ std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies
     std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> pairs;
     auto other = b.bodies.begin();
     for (const Moment::Placed& body : a.bodies) {
-        while (other != b.bodies.end() && other->entity.id() < body.entity.id()) ++other;
+        while (other != b.bodies.end() && id_of(*other) < id_of(body)) ++other;
         if (other != b.bodies.end() && is_same_body(body, *other))
             pairs.emplace_back(&body, &*other);
     }
@@ -56,27 +72,41 @@ Moment between(const Moment& before, const Moment& after, double alpha) {
     Moment drawn = after;
     drawn.bodies.clear();
     for (const auto& [from, to] : same_bodies(before, after))
-        drawn.bodies.push_back(
-            {to->entity, to->jumps, from->position + (to->position - from->position) * alpha});
+        drawn.bodies.push_back({to->entity, to->jumps, place(*from, *to, alpha)});
     return drawn;
 }
 
 std::optional<Apart> largest_distance(const Moment& a, const Moment& b) {
-    if (!is_same_play(a, b)) return std::nullopt;
+    return largest_distance(a, b, b, 1);
+}
+
+std::optional<Apart> largest_distance(const Moment& truth, const Moment& before,
+                                      const Moment& after, double alpha) {
+    const std::size_t count = truth.bodies.size();
+    if (!is_same_but_bodies(truth, after) || !is_same_but_bodies(before, after) ||
+        before.bodies.size() != count || after.bodies.size() != count)
+        return std::nullopt;
     Apart largest;
-    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-        const Vec3 apart = a.bodies[i].position - b.bodies[i].position;
-        const double distance = std::hypot(apart[0], apart[1], apart[2]);
-        if (distance > largest.distance) largest = {distance, a.bodies[i].entity};
+    double largest_squared = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Moment::Placed& from = before.bodies[i];
+        const Moment::Placed& to = after.bodies[i];
+        if (!is_same_body(from, to) || !is_same_body(to, truth.bodies[i])) return std::nullopt;
+        const Vec3 apart = truth.bodies[i].position - place(from, to, alpha);
+        const double squared = dot(apart, apart);
+        if (!(squared > largest_squared)) continue;
+        largest_squared = squared;
+        largest = {std::hypot(apart[0], apart[1], apart[2]), to.entity};
     }
     return largest;
 }
 
-std::optional<Apart> distance_of(const Moment::Placed& body, const Moment& moment) {
-    const auto same = std::ranges::find_if(
-        moment.bodies, [&](const Moment::Placed& one) { return is_same_body(one, body); });
-    if (same == moment.bodies.end()) return std::nullopt;
-    return Apart{length(same->position - body.position), body.entity};
+std::optional<Apart> distance_of(const Moment::Placed& body, const Moment& before,
+                                 const Moment& after, double alpha) {
+    const Moment::Placed* const from = same_body(before, body);
+    const Moment::Placed* const to = same_body(after, body);
+    if (!from || !to) return std::nullopt;
+    return Apart{length(place(*from, *to, alpha) - body.position), body.entity};
 }
 
 std::vector<Ghost> ghosts_of(const Moment& run, const Moment& reference) {

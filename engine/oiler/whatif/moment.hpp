@@ -45,9 +45,15 @@ struct Apart {
 /// The body with the largest distance from that of the other play; empty if they are not the same
 /// play.
 [[nodiscard]] std::optional<Apart> largest_distance(const Moment& a, const Moment& b);
+/// The same, of the bodies as drawn at `alpha` between two moments. Empty, too, if these two are
+/// not the same play.
+[[nodiscard]] std::optional<Apart> largest_distance(const Moment& truth, const Moment& before,
+                                                    const Moment& after, double alpha);
 
-/// The distance of a body from the same one of a moment; empty if that has none.
-[[nodiscard]] std::optional<Apart> distance_of(const Moment::Placed& body, const Moment& moment);
+/// The distance of a body from the same one as drawn at `alpha` between two moments; empty if one
+/// of them has none.
+[[nodiscard]] std::optional<Apart> distance_of(const Moment::Placed& body, const Moment& before,
+                                               const Moment& after, double alpha);
 
 /// The positions of a body in a run and in the reference at the same time, m.
 struct Ghost {

@@ -88,7 +88,7 @@ void PlayAlong::take_step() {
         return stop(error.what());
     }
     figures_.energy_scale.add(runs_->recorded_game().world().energy());
-    figures_.last = runs_->drawn();
+    figures_.last = is_behind() ? nullptr : runs_->drawn();
     if (!runs_->certain() || runs_->recorded().other_play_from) return;
     if (figures_.errors.size() >= most_errors) figures_.errors.erase(figures_.errors.begin());
     figures_.errors.push_back(static_cast<float>(runs_->recorded().distance_now));

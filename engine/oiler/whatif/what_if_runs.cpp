@@ -24,12 +24,8 @@ Rate rate_of_instants(Rate recorded) {
     return recorded;
 }
 
-/// The largest distance as drawn, `alpha` of the way between two steps of a run; empty if there are
-/// no bodies or if the three are not the same play.
-std::optional<Apart> largest_drawn(const Moment& before, const Moment& after, double alpha,
-                                   const Moment& truth) {
-    if (truth.bodies.empty() || !is_same_play(before, after)) return std::nullopt;
-    return largest_distance(truth, between(before, after, alpha));
+std::int64_t steps_of_frame(Rate rate) {
+    return std::max<std::int64_t>(1, std::llround(1 / (rate.dt() * frames_per_second)));
 }
 
 /// Keeps the last 4096 times.
@@ -65,6 +61,19 @@ double time_of_stopwatch() {
 
 constexpr double pixels_of_height = 720;
 constexpr std::size_t few_bodies = 64;
+constexpr std::size_t many_bodies = 2000;
+
+/// Every how many instants of a recorded step the runs are compared: of many bodies, 960 times a
+/// second are enough, but in the middle of each step, where lines differ most from the motion.
+std::int64_t stride_of(const SettingRun& recorded) {
+    constexpr std::int64_t most = instants_per_step / 2;
+    const std::size_t bodies = recorded.game().world().body_count();
+    if (bodies <= few_bodies) return 1;
+    std::int64_t stride = bodies > many_bodies ? most : 1;
+    const double instants = instants_per_step / recorded.result().stepping.rate.dt();  // a second
+    while (stride < most && instants >= 2 * 960 * static_cast<double>(stride)) stride *= 2;
+    return stride;
+}
 
 /// The least rate of the reference, Hz: what a game does in its updates comes late by its step.
 std::int64_t least_rate(const AnyGame& recorded) {
@@ -166,7 +175,8 @@ void SettingRun::play_until(std::int64_t recorded, const TrueMotion& truth, doub
         for (; next != moments.end(); ++next) {
             const double alpha = instants_.since(step, next->index);
             if (alpha > 1) break;
-            if (const auto apart = largest_drawn(before, moment(), alpha, next->moment))
+            if (next->moment.bodies.empty()) continue;
+            if (const auto apart = largest_distance(next->moment, before, moment(), alpha))
                 note(*apart, rate.time(next->index), visible);
         }
     }
@@ -181,7 +191,7 @@ void SettingRun::compare_impacts(const Moment& before, const std::deque<TrueImpa
     for (; next != impacts.end(); ++next) {
         const double alpha = instants_.since(step, next->index);
         if (alpha > 1) return;
-        const auto apart = distance_of(next->body, between(before, moment(), alpha));
+        const auto apart = distance_of(next->body, before, moment(), alpha);
         if (apart && before.cuts == next->cuts && moment().cuts == next->cuts)
             note(*apart, next->index * rate_of_instants(recorded_rate_).dt(), visible);
     }
@@ -323,7 +333,7 @@ bool WhatIfRuns::play_reference(std::int64_t step) {
     std::vector<TrueMoment> moments;
     std::deque<TrueImpact> impacts;
     const std::int64_t last = step * instants_per_step;
-    const std::int64_t stride = reference_.game().world().body_count() > 2000 ? 8 : 1;
+    const std::int64_t stride = stride_of(*runs_.front());
     for (std::int64_t i = step == 0 ? 0 : last - instants_per_step + stride; i <= last;
          i += stride) {
         reference_.play_until_instant(i, &impacts);
@@ -348,8 +358,10 @@ bool WhatIfRuns::play_reference(std::int64_t step) {
 }
 
 bool WhatIfRuns::check(std::int64_t step, const Moment& moment) {
-    const double time = recording_.header.stepping.rate.time(step);
-    pixel_ = static_cast<double>(reference_.game().picture().camera.height) / pixels_of_height;
+    const Rate rate = recording_.header.stepping.rate;
+    const double time = rate.time(step);
+    if (step % steps_of_frame(rate) == 0)
+        pixel_ = static_cast<double>(reference_.game().picture().camera.height) / pixels_of_height;
     check_.compare(step, time, moment, pixel_);
     certain_ = !check_.result().other_play_from && !check_.result().visible_from;
     if (check_.result().visible_from && small_until_)
@@ -364,18 +376,19 @@ bool WhatIfRuns::check(std::int64_t step, const Moment& moment) {
 
 std::shared_ptr<const DrawnStep> WhatIfRuns::drawn() const {
     const Moment& after = runs_.front()->moment();
-    const std::int64_t first = (step_ - 1) * instants_per_step;
-    const auto truth = std::ranges::find(truth_.moments, first, &TrueMoment::index);
-    const bool is_known =
-        truth != truth_.moments.end() && truth_.moments.end() - truth > instants_per_step;
-    if (!is_known || before_.cuts != after.cuts) return nullptr;
+    const std::int64_t last = step_ * instants_per_step;
+    const std::deque<TrueMoment>& known = truth_.moments;
+    const auto first = std::ranges::find(known, last - instants_per_step, &TrueMoment::index);
+    if (first == known.end() || known.back().index != last || before_.cuts != after.cuts)
+        return nullptr;
     auto drawn = std::make_shared<DrawnStep>(DrawnStep{before_, after});
-    for (std::int64_t i = 0; i <= instants_per_step; ++i) drawn->truth.push_back(truth[i].moment);
+    std::transform(first, known.end(), std::back_inserter(drawn->truth),
+                   [](const TrueMoment& one) { return one.moment; });
     return drawn;
 }
 
 DrawnStep::Places DrawnStep::at(double alpha) const {
-    const double place = alpha * static_cast<double>(instants_per_step);
+    const double place = alpha * static_cast<double>(truth.size() - 1);
     const auto instant = std::min(static_cast<std::size_t>(place), truth.size() - 2);
     return {between(before, after, alpha),
             between(truth[instant], truth[instant + 1], place - static_cast<double>(instant))};

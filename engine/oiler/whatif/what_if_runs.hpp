@@ -41,8 +41,8 @@ private:
     Pixels pixels_;
 };
 
-/// The number of moments of a recorded step that are compared; of more than 2000 bodies, only every
-/// eighth one is.
+/// The number of moments of a recorded step that are compared. With more than 64 bodies, only those
+/// that make 960 a second are, and with more than 2000, only every eighth one.
 inline constexpr std::int64_t instants_per_step = 16;
 
 /// The true motion at the instant `index`, of which each recorded step has instants_per_step.
@@ -68,7 +68,7 @@ struct TrueMotion {
 struct DrawnStep {
     Moment before;
     Moment after;
-    std::vector<Moment> truth{};  ///< at instants_per_step + 1 instants
+    std::vector<Moment> truth{};  ///< from its beginning to its end, 3 moments or more
 
     struct Places {
         Moment run;
