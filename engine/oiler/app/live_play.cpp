@@ -83,6 +83,7 @@ void LivePlay::set_pace(const Requests& requests) {
 }
 
 void LivePlay::control(const Requests& requests, bool restarts) {
+    if (const auto wanted = playback_.game().take_wanted_rate()) change_rate(*wanted);
     if (requests.stepping) change_to(*requests.stepping, requests.changes_from_start);
     if (requests.threads) is_possible([&] { playback_.game().set_threads(*requests.threads); });
     // A game that takes no steps sees no keys.
@@ -113,6 +114,16 @@ void LivePlay::change_to(const Stepping& stepping, bool from_start) {
         restart_with(stepping);
     else
         change_.want(stepping);
+}
+
+/// Makes the game anew at the rate that it asks for, unless the setting is fixed.
+void LivePlay::change_rate(std::int64_t hertz) {
+    const std::string fixed = why_fixed(run_.options, run_.about);
+    if (!fixed.empty()) return complain(fixed);
+    Stepping stepping = playback_.world().settings().stepping;
+    if (stepping.rate == Rate{hertz}) return;
+    stepping.rate = {hertz};
+    change_to(stepping, true);
 }
 
 /// Whether the game can have a setting, which f() gives it. Else the player is told why.
@@ -154,6 +165,7 @@ void LivePlay::change_until(std::int64_t step) {
 /// Restarts the clock at the game's rate and forgets all earlier steps.
 void LivePlay::begin_setting() {
     const std::int64_t step = playback_.steps();
+    verdict_before_.clear();
     clock_.begin(playback_.world().settings().stepping.rate, step, !divergence_);
     playback_.go_to(step);
     divergence_.reset();
@@ -162,6 +174,7 @@ void LivePlay::begin_setting() {
 
 void LivePlay::restart() {
     restarted_at_ = playback_.steps();
+    verdict_before_.clear();
     if (what_if_) what_if_->repeat(restarted_at_);
     divergence_.reset();
     past_.leave();
@@ -217,6 +230,7 @@ Picture& LivePlay::next_picture() {
 /// takes another step.
 void LivePlay::go_back_to(std::int64_t step) {
     step = std::clamp(step, past_.first(), past_.last());
+    if (what_if_ && !past_.is_in_past()) keep_verdict(what_if_->figures());
     const std::optional<Input> last = past_.go_to(step, playback_.steps(), divergence_.has_value());
     if (last) {
         run_.live.queue.continue_after(*last);
@@ -232,7 +246,18 @@ void LivePlay::play_on_from_past() {
     if (run_.about.changes_in_play)
         what_if_->start_from(playback_.game(), playback_.steps());
     else
-        what_if_->stop("what the timestep costs is no longer measured: you went back");
+        what_if_->stop(with_verdict_before(
+            "the error is no longer measured, because you went back: F9 restarts and measures it"));
+}
+
+void LivePlay::keep_verdict(const LiveFigures& figures) {
+    if (figures.measured && figures.measured->certain_until > 0)
+        verdict_before_ = figures.verdict.text;
+}
+
+std::string LivePlay::with_verdict_before(const std::string& reason) const {
+    if (verdict_before_.empty()) return reason;
+    return fmt::format("Before you went back: {} Now {}.", verdict_before_, reason);
 }
 
 LivePlay::State LivePlay::state() const {
@@ -275,9 +300,10 @@ double LivePlay::alpha() const {
 std::string LivePlay::no_verdict() const {
     if (!what_if_) return "what the timestep costs is not measured with --quiet";
     if (!past_.is_in_past()) return {};
-    return run_.about.changes_in_play
-               ? "what the timestep costs is measured again when you play on"
-               : "what the timestep costs is not measured when you play on from here";
+    return with_verdict_before(
+        run_.about.changes_in_play
+            ? "the error is measured again when you play on"
+            : "the error is not measured from here: F9 restarts and measures it");
 }
 
 Verdict LivePlay::verdict() const {

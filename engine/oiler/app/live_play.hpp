@@ -129,6 +129,7 @@ public:
 
 private:
     [[nodiscard]] Picture& next_picture();
+    void change_rate(std::int64_t hertz);
     void begin_measuring();
     void restart();
     void restart_with(const Stepping& stepping);
@@ -136,6 +137,9 @@ private:
     void begin_setting();
     void go_back_to(std::int64_t step);
     void play_on_from_past();
+    void keep_verdict(const LiveFigures& figures);
+    /// The reason why there is no verdict, after the last verdict that was known.
+    [[nodiscard]] std::string with_verdict_before(const std::string& reason) const;
     template <class F>
     bool is_possible(F f);
 
@@ -151,6 +155,7 @@ private:
     std::optional<Error> divergence_;     ///< it stops the game
     std::int64_t restarted_at_ = -1;      ///< the number of steps before the last restart
     std::string complaint_;
+    std::string verdict_before_;  ///< the last one of this play before it went back; empty: none
     std::chrono::nanoseconds show_time_{0};
 };
 
