@@ -169,6 +169,10 @@ TEST(Verdict, NamesReadingsAtRestFirst) {
     EXPECT_EQ(judge(result, result.runs[0].readings).text,
               "apex 1.95 m, true 2.025 m: 7.5 cm too low at 60 Hz semi_implicit_euler. "
               "velocity_verlet: 2 mm off, +300 µs a frame.");
+    result.runs[0].readings[0].value = std::nextafter(1.9875, 0);
+    EXPECT_TRUE(judge(result, result.runs[0].readings).text.starts_with("apex 1.988 m, true 2.025"))
+        << "a half in the last places";
+    result.runs[0].readings[0].value = 1.95;
     result.reference.readings[0].value = 1.9;
     result.check.readings[0].value = 1.9;
     EXPECT_TRUE(holds(judge(result, result.runs[0].readings).text, "5 cm too high"));

@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 namespace oiler {
 namespace {
+
+/// The remedy where a game cannot be measured from its state on.
+constexpr std::string_view measures_on_restart = "F9 measures again.";
 
 std::chrono::nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
@@ -246,8 +250,7 @@ void LivePlay::play_on_from_past() {
     if (run_.about.changes_in_play)
         what_if_->start_from(playback_.game(), playback_.steps());
     else
-        what_if_->stop(with_verdict_before(
-            "the error is no longer measured, because you went back: F9 restarts and measures it"));
+        what_if_->stop(with_verdict_before(measures_on_restart));
 }
 
 void LivePlay::keep_verdict(const LiveFigures& figures) {
@@ -255,9 +258,10 @@ void LivePlay::keep_verdict(const LiveFigures& figures) {
         verdict_before_ = figures.verdict.text;
 }
 
-std::string LivePlay::with_verdict_before(const std::string& reason) const {
-    if (verdict_before_.empty()) return reason;
-    return fmt::format("Before you went back: {} Now {}.", verdict_before_, reason);
+std::string LivePlay::with_verdict_before(std::string_view remedy) const {
+    return verdict_before_.empty()
+               ? fmt::format("What the timestep costs is not known here. {}", remedy)
+               : fmt::format("Before you went back: {} {}", verdict_before_, remedy);
 }
 
 LivePlay::State LivePlay::state() const {
@@ -300,10 +304,8 @@ double LivePlay::alpha() const {
 std::string LivePlay::no_verdict() const {
     if (!what_if_) return "what the timestep costs is not measured with --quiet";
     if (!past_.is_in_past()) return {};
-    return with_verdict_before(
-        run_.about.changes_in_play
-            ? "the error is measured again when you play on"
-            : "the error is not measured from here: F9 restarts and measures it");
+    return with_verdict_before(run_.about.changes_in_play ? "Playing on measures again."
+                                                          : measures_on_restart);
 }
 
 Verdict LivePlay::verdict() const {

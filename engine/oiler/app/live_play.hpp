@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "oiler/app/game_clock.hpp"
@@ -138,8 +139,8 @@ private:
     void go_back_to(std::int64_t step);
     void play_on_from_past();
     void keep_verdict(const LiveFigures& figures);
-    /// The reason why there is no verdict, after the last verdict that was known.
-    [[nodiscard]] std::string with_verdict_before(const std::string& reason) const;
+    /// The last verdict before the player went back, and how to get a new one.
+    [[nodiscard]] std::string with_verdict_before(std::string_view remedy) const;
     template <class F>
     bool is_possible(F f);
 

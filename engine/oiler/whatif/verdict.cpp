@@ -107,9 +107,10 @@ std::string reading_text(const WhatIf& measured, const Reading& played) {
     const auto index = static_cast<std::size_t>(&played - measured.runs.front().readings.data());
     const double truth = measured.reference.readings[index].value;
     const double off = std::abs(played.value - truth);
-    return fmt::format("{} {:.4g} {}, true {:.4g} {}: {} too {} at {}.", played.name, played.value,
-                       played.unit, truth, played.unit, amount_text(off, played.unit),
-                       played.value < truth ? "low" : "high",
+    constexpr double up = 1 + 1e-9;  // rounds halves up, whatever their last places
+    return fmt::format("{} {:.4g} {}, true {:.4g} {}: {} too {} at {}.", played.name,
+                       up * played.value, played.unit, up * truth, played.unit,
+                       amount_text(off, played.unit), played.value < truth ? "low" : "high",
                        short_text(measured.runs.front().stepping));
 }
 
