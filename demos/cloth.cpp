@@ -54,11 +54,15 @@ struct Grip {
     Vec3 offset;  // m, from the mouse
 };
 
+/// n of a flat net is 8. Its weight stretches it and turns its diagonals. From the rate of this n
+/// on, it hangs without a tear, as measured.
+constexpr double n_hanging = 8.4;
+/// In no shape n is more than the sum of 8 threads at both ends of one.
+constexpr double n_crumpled = 16;
+
 /// The lowest rate from which on a wave of the cloth is stable, Hz; 1 if any is. A wave in which
-/// neighbours move against each other is the fastest oscillation of a net: its ω² is n·k/m. If the
-/// net hangs flat, n is 8. In no shape it is more than 16, the sum of 8 threads at both ends of
-/// one.
-double lowest_rate(const Method& method, Damping where, int n) {
+/// neighbours move against each other is the fastest oscillation of a net: its ω² is n·k/m.
+double lowest_rate(const Method& method, Damping where, double n) {
     const auto is_stable_at = [&](double rate) {
         const double springs = n / mass / rate;
         const Oscillation wave{springs * stiffness / rate, springs * damping};
@@ -78,14 +82,14 @@ double lowest_rate(const Method& method, Damping where, int n) {
 
 /// The lowest stable rates of a method, Hz, which are kept.
 struct Needs {
-    double flat, crumpled;
+    double hanging, crumpled;
 };
 const Needs& needs_of(const Method& method, Damping where) {
     static std::map<std::pair<const Method*, Damping>, Needs> known;
     const auto found = known.find({&method, where});
     if (found != known.end()) return found->second;
-    return known[{&method, where}] = {lowest_rate(method, where, 8),
-                                      lowest_rate(method, where, 16)};
+    return known[{&method, where}] = {lowest_rate(method, where, n_hanging),
+                                      lowest_rate(method, where, n_crumpled)};
 }
 
 bool crosses(Point a, Point b, Point c, Point d) {
@@ -277,15 +281,15 @@ struct Cloth {
         const auto& [method, rate, precision, damping_in] = world.settings().stepping;
         const Needs& needs = needs_of(*method, damping_in.value_or(method->damping));
         const auto hz = static_cast<double>(rate.steps);
-        const Colour colour = hz < needs.flat       ? palette::vermilion
+        const Colour colour = hz < needs.hanging    ? palette::vermilion
                               : hz < needs.crumpled ? palette::orange
                                                     : palette::green;
         const std::string words =
             needs.crumpled == 1
                 ? "It holds at any rate."
-                : fmt::format("It needs {:.0f} Hz while flat, up to {:.0f} Hz crumpled: {}.",
-                              needs.flat, needs.crumpled,
-                              hz < needs.flat       ? "it tears itself to pieces"
+                : fmt::format("It needs {:.0f} Hz while it hangs, up to {:.0f} Hz crumpled: {}.",
+                              needs.hanging, needs.crumpled,
+                              hz < needs.hanging    ? "it tears itself to pieces"
                               : hz < needs.crumpled ? "do not crumple it"
                                                     : "it holds");
         text({14, 330}, 15, colour, fmt::format("{} at {} Hz", method->name, rate.steps));

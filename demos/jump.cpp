@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shows one jump at two rates: at 60 Hz it misses a ledge at 2.00 m, at 240 Hz it lands on it. A
-// slider changes the left rate, --rate the right one, --method the method of both.
+// Shows one jump at two rates: at 60 Hz it misses a ledge at 2.00 m, at 240 Hz it lands on it. The
+// slider sets the rate of the right jump, which is that of the loop: the line on top speaks of it.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,30 +17,43 @@ constexpr Action slower{"lower rate", Key::left, Key::a, Pad::left};
 constexpr Action faster{"higher rate", Key::right, Key::d, Pad::right};
 constexpr Action grab{"drag the slider", Mouse::left};
 
-constexpr double gravity = 20;        // m/s²
-constexpr Vec3 take_off{1.8, 9};      // m/s
-constexpr float ledge = 2;            // m
-constexpr std::int64_t interval = 2;  // s from one take-off to the next
+constexpr double gravity = 20;          // m/s²
+constexpr Vec3 take_off{1.8, 9};        // m/s
+constexpr float ledge = 2;              // m
+constexpr std::int64_t interval = 2;    // s from one take-off to the next
+constexpr std::int64_t left_rate = 60;  // Hz
 constexpr std::array<std::int64_t, 12> rates{10, 15, 20,  30,  40,  50,
                                              60, 80, 100, 120, 144, 240};  // Hz, of the slider
 constexpr Point slider_low{34, 38}, slider_high{606, 38};                  // units of the canvas
+constexpr float slider_top = 56;                                           // likewise
 
-/// A jumping body and the path of its feet, in m from the take-off.
+/// The path of a body's feet, in m from the take-off.
+struct Path {
+    std::vector<Point> points{};  // one per step
+    double apex = 0;              // m
+};
+
 struct Jumper {
     Entity body{};
-    std::vector<Point> path{};  // one point per step
+    Path path{};
 
     void jump(World& world) {
         if (world.alive(body)) world.destroy(body);
-        *this = {world.spawn(Body{.velocity = take_off}), {{0, 0}}};
+        *this = {world.spawn(Body{.velocity = take_off}), {.points = {{0, 0}}}};
         world.add(body, Name{"right ball"});
+    }
+
+    bool rises(const World& world) const {
+        return world.has_body(body) && world.velocity(body)[1] > 0;
     }
 
     /// Adds the position after a step. A body that falls onto the ledge or the ground stays there.
     void follow(World& world) {
-        const Point before = path.back();
-        path.push_back(world.has_body(body) ? to_point(world.position(body)) : before);
-        Point& at = path.back();
+        const Point before = path.points.back();
+        path.points.push_back(before);
+        if (!world.has_body(body)) return;
+        Point& at = path.points.back() = to_point(world.position(body));
+        path.apex = std::max(path.apex, world.position(body)[1]);
         const float floor = before.y >= ledge ? ledge : 0;
         if (at.y >= floor) return;
         at = {std::lerp(before.x, at.x, (before.y - floor) / (before.y - at.y)), floor};
@@ -48,8 +61,8 @@ struct Jumper {
     }
 };
 
-/// The whole path of a jump at another rate.
-std::vector<Point> simulate(Settings settings, std::int64_t rate) {
+/// The whole path of a jump at a rate.
+Path simulate(Settings settings, std::int64_t rate) {
     settings.stepping.rate = {rate};
     World world(2, settings);
     world.set_gravity({0, -gravity});
@@ -58,14 +71,12 @@ std::vector<Point> simulate(Settings settings, std::int64_t rate) {
     return jumper.path;
 }
 
-/// A jump as it is drawn.
+/// A jump as it is drawn. Its end is known from the start, so that a drag shows what a rate does.
 struct Shown {
     std::int64_t rate;
+    const Path& whole;
     std::vector<Point> path;  // up to the feet
-    float apex;               // m, so far
-    bool is_over;
     ElementKey key;
-    std::vector<Point> whole{};  // the path up to the end
 };
 
 /// Draws a jump with the take-off at x = `left`.
@@ -83,7 +94,8 @@ void draw(Picture& picture, const Shown& shown, float left) {
                                   .align = Align::centre,
                                   .space = Space::world});
     };
-    const bool misses = shown.is_over && shown.apex < ledge;
+    constexpr double half = 1e-9;  // rounds up
+    const bool misses = shown.whole.apex < ledge;
     const Colour colour = misses ? palette::vermilion : palette::blue;
     std::vector<Point> arc;
     for (double t = 0; t < 2.001 * take_off[1] / gravity; t += 0.01)
@@ -97,20 +109,38 @@ void draw(Picture& picture, const Shown& shown, float left) {
 
     constexpr float radius = 0.09F;
     const Point feet = shown.path.back();
-    line(shown.whole, 1.5F, palette::faded(colour, 110));
+    line(shown.whole.points, 1.5F, palette::faded(colour, 110));
     line(shown.path, 2.5F, colour, shown.key);
     picture.discs.push_back({.key = shown.key,
                              .centre = {feet.x + left, feet.y + radius},
                              .radius = radius,
                              .colour = colour});
     text({0.73F, 0.68F}, fmt::format("{} Hz", shown.rate), 30, colour);
-    text({0.73F, 0.43F}, fmt::format("apex {:.3f} m", shown.apex), 17, palette::ink);
-    if (shown.is_over) text({0.73F, 0.18F}, misses ? "misses" : "lands", 17, colour);
+    text({0.73F, 0.43F}, fmt::format("apex {:.3f} m", shown.whole.apex + half), 17, palette::ink);
+    text({0.73F, 0.18F}, misses ? "misses" : "lands", 17, colour);
 }
 
-float place_of(std::size_t rate) {
-    return std::lerp(slider_low.x, slider_high.x,
-                     static_cast<float>(rate) / static_cast<float>(rates.size() - 1));
+/// The place of a rate on the slider, from 0 to 1; other rates are between those beside them.
+float share_of(std::int64_t rate) {
+    const auto above = std::ranges::lower_bound(rates, rate);
+    if (above == rates.begin()) return 0;
+    if (above == rates.end()) return 1;
+    const std::int64_t below = *(above - 1);
+    const auto part = static_cast<float>(rate - below) / static_cast<float>(*above - below);
+    return (static_cast<float>(above - rates.begin() - 1) + part) /
+           static_cast<float>(rates.size() - 1);
+}
+std::int64_t rate_at(float share) {
+    const float place = std::clamp(share, 0.0F, 1.0F) * static_cast<float>(rates.size() - 1);
+    return rates[static_cast<std::size_t>(std::lround(place))];
+}
+std::int64_t next_above(std::int64_t rate) {
+    const auto next = std::ranges::upper_bound(rates, rate);
+    return next == rates.end() ? rate : *next;
+}
+std::int64_t next_below(std::int64_t rate) {
+    const auto next = std::ranges::lower_bound(rates, rate);
+    return next == rates.begin() ? rate : *(next - 1);
 }
 
 }  // namespace
@@ -126,76 +156,63 @@ struct Jump {
 
     World world;
     Jumper jumper;
-    std::size_t dragged = 6;  // the rate of the left jump, which is only drawn
-    bool is_grabbed = false;
-    std::vector<Point> dragged_path;
+    Path left, right;      // up to their ends
+    double last_apex = 0;  // m, of the last jump that reached it
 
     explicit Jump(const Settings& settings)
-        : world(2, settings), dragged_path(simulate(settings, rates[dragged])) {
+        : world(2, settings),
+          left(simulate(settings, left_rate)),
+          right(simulate(settings, settings.stepping.rate.steps)) {
         world.set_gravity({0, -gravity});
         jumper.jump(world);
     }
 
-    void update(const Input& input) {
-        const std::int64_t rate = world.settings().stepping.rate.steps;
-        const bool again = world.tick() % (interval * rate) == 0;
+    std::int64_t rate() const { return world.settings().stepping.rate.steps; }
+
+    void update(const Input& input, Loop& loop) {
+        const bool again = world.tick() % (interval * rate()) == 0;
         again ? jumper.jump(world) : jumper.follow(world);
-        drag(input);
+        if (!jumper.rises(world)) last_apex = jumper.path.apex;
+        const std::int64_t wanted = wanted_rate(input);
+        if (wanted != rate()) loop.change_rate(wanted);
     }
-
-    void drag(const Input& input) {
-        const std::size_t before = dragged;
-        if (input.pressed(faster)) dragged = std::min(dragged + 1, rates.size() - 1);
-        if (input.pressed(slower) && dragged > 0) --dragged;
+    std::int64_t wanted_rate(const Input& input) const {
+        if (input.pressed(faster)) return next_above(rate());
+        if (input.pressed(slower)) return next_below(rate());
         const std::optional<Point> mouse = input.pointer_canvas();
-        if (input.pressed(grab)) is_grabbed = mouse && mouse->y < 50;
-        is_grabbed = is_grabbed && input.held(grab);
-        if (is_grabbed && mouse) {
-            const float share = (mouse->x - slider_low.x) / (slider_high.x - slider_low.x);
-            dragged = static_cast<std::size_t>(
-                std::lround(std::clamp(share, 0.0F, 1.0F) * static_cast<float>(rates.size() - 1)));
-        }
-        if (dragged != before) dragged_path = simulate(world.settings(), rates[dragged]);
+        if (!input.held(grab) || !mouse || mouse->y > slider_top) return rate();
+        return rate_at((mouse->x - slider_low.x) / (slider_high.x - slider_low.x));
     }
 
-    std::vector<Reading> readings() const {
-        return {{"right apex", double{std::ranges::max(jumper.path, {}, &Point::y).y},
-                 "m"}};
-    }
+    std::vector<Reading> readings() const { return {{"apex of the right ball", last_apex, "m"}}; }
 
     Picture picture() const {
         Picture picture{.camera = {.centre = {0, 1.01F}, .height = 2.8F}};
-        draw(picture, shown_dragged(), -1.9F);
-        draw(picture, shown_live(), 0.27F);
+        draw(picture, shown_left(), -1.9F);
+        draw(picture, shown_right(), 0.27F);
         draw_slider(picture);
         return picture;
     }
 
-    Shown shown_live() const {
-        std::vector<Point> path = jumper.path;
+    Shown shown_right() const {
+        std::vector<Point> path = jumper.path.points;
         if (world.has_body(jumper.body)) path.push_back(to_point(world.position(jumper.body)));
-        return {world.settings().stepping.rate.steps, std::move(path),
-                std::ranges::max(jumper.path, {}, &Point::y).y, !world.has_body(jumper.body),
-                key_of(world, jumper.body)};
+        return {rate(), right, std::move(path), key_of(world, jumper.body)};
     }
 
-    /// Its result is there at once, so that a drag shows what the rate does.
-    Shown shown_dragged() const {
-        const std::int64_t rate = rates[dragged];
-        const double steps = std::fmod(world.time(), double{interval}) * static_cast<double>(rate);
-        const std::size_t last = dragged_path.size() - 1;
+    Shown shown_left() const {
+        const double steps = std::fmod(world.time(), double{interval}) * double{left_rate};
+        const std::size_t last = left.points.size() - 1;
         const auto whole = std::min(static_cast<std::size_t>(steps), last);
-        std::vector<Point> path(dragged_path.begin(),
-                                dragged_path.begin() + static_cast<std::ptrdiff_t>(whole + 1));
+        std::vector<Point> path(left.points.begin(),
+                                left.points.begin() + static_cast<std::ptrdiff_t>(whole + 1));
         if (whole < last) {
             const auto part = static_cast<float>(steps - static_cast<double>(whole));
-            const Point from = path.back(), to = dragged_path[whole + 1];
+            const Point from = path.back(), to = left.points[whole + 1];
             path.push_back({std::lerp(from.x, to.x, part), std::lerp(from.y, to.y, part)});
         }
-        const float apex = std::ranges::max(dragged_path, {}, &Point::y).y;
         const auto round = static_cast<std::uint32_t>(world.time() / double{interval});
-        return {rate,        std::move(path), apex, true, {.object = 1, .part = 1, .jump = round},
-                dragged_path};
+        return {left_rate, left, std::move(path), {.object = 1, .part = 1, .jump = round}};
     }
 
     void draw_slider(Picture& picture) const {
@@ -206,16 +223,20 @@ struct Jump {
                                       .colour = readable(colour),
                                       .align = align});
         };
+        const auto place_of = [](std::int64_t at) {
+            return std::lerp(slider_low.x, slider_high.x, share_of(at));
+        };
         picture.polylines.push_back({.points = {slider_low, slider_high},
                                      .width = 3,
                                      .colour = palette::pale,
                                      .space = Space::canvas});
-        for (std::size_t i = 0; i < rates.size(); ++i)
-            text({place_of(i), 20}, fmt::format("{}", rates[i]),
-                 i == dragged ? palette::ink : palette::grey, Align::centre);
+        for (const std::int64_t at : rates)
+            text({place_of(at), 20}, fmt::format("{}", at),
+                 at == rate() ? palette::ink : palette::grey, Align::centre);
         text({620, 20}, "Hz", palette::grey, Align::left);
-        text({320, 5}, "Drag the rate of the left jump, or press ← →", palette::ink, Align::centre);
-        picture.discs.push_back({.centre = {place_of(dragged), slider_low.y},
+        text({320, 5}, "Drag the rate of the right ball, or press ← →", palette::ink,
+             Align::centre);
+        picture.discs.push_back({.centre = {place_of(rate()), slider_low.y},
                                  .radius = 8,
                                  .colour = palette::ink,
                                  .space = Space::canvas});

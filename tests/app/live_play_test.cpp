@@ -272,6 +272,70 @@ TEST_F(LivePlayTest, TellsWhyASettingIsImpossible) {
     EXPECT_EQ(playback.steps(), 7) << "the game goes on";
 }
 
+/// Asks for 20 Hz in its fifth step.
+struct Switch {
+    static constexpr About about{.name = "switch", .title = "Switch", .rate = 10};
+    World world;
+    explicit Switch(const Settings& settings) : world(1, settings) {}
+    void update(const Input&, Loop& loop) {
+        if (world.tick() == 4) loop.change_rate(20);
+    }
+    [[nodiscard]] Picture picture() const { return {}; }
+};
+
+Options at_10_hz(Options options = {}) {
+    options.settings.stepping.rate = {10};
+    return options;
+}
+
+/// Plays ten frames of 0.1 s of a game at 10 Hz that asks for 20 Hz.
+struct SwitchedPlay {
+    explicit SwitchedPlay(const Options& given) : options(at_10_hz(given)) {
+        for (int i = 0; i <= 10; ++i) {
+            play.control({}, false);
+            (void)play.play(i * std::chrono::milliseconds(100));
+        }
+    }
+    [[nodiscard]] std::int64_t rate() const { return game.world().settings().stepping.rate.steps; }
+
+    Options options;
+    MakeGame make = [](const Settings& settings) {
+        return std::make_unique<AnyGameOf<Switch>>(settings);
+    };
+    AnyGameOf<Switch> game{Settings{.stepping = {.rate = {10}}}};
+    TraceWriter none{{}, {}, game.world()};
+    Playback playback{game, none, Keep::nothing};
+    LiveInput live;
+    GameRun run{.options = options,
+                .about = Switch::about,
+                .make = make,
+                .playback = playback,
+                .live = live,
+                .inputs = live};
+    LivePlay play{run};
+};
+
+// The fifth step asks; the next frame shows the new game, and four more play it. That asks for the
+// rate that it has.
+TEST(GamesThatChangeTheirRate, AreMadeAnewAtIt) {
+    Options options;
+    options.quiet = true;
+    const SwitchedPlay switched{options};
+    EXPECT_EQ(switched.rate(), 20);
+    EXPECT_EQ(switched.game.world().tick(), 4 * 2);
+    EXPECT_TRUE(switched.play.complaint().empty());
+}
+
+TEST(GamesThatChangeTheirRate, KeepAFixedOneAndAreToldWhy) {
+    Options recorded;
+    recorded.record = "a.rec";
+    recorded.quiet = true;
+    const SwitchedPlay fixed{recorded};
+    EXPECT_EQ(fixed.rate(), 10);
+    EXPECT_EQ(fixed.game.world().tick(), 10);
+    EXPECT_EQ(fixed.play.complaint(), "--record keeps this setting.");
+}
+
 // Before any step was timed, a frame that took long may be followed by no more than two steps.
 TEST(GameClocks, CatchUpTwoStepsUntilStepsAreTimed) {
     GameClock clock(Rate{60});
@@ -339,11 +403,88 @@ TEST_F(MeasuredPlayTest, AGameThatIsMadeAnewIsMeasuredFromItsNextStart) {
     GameRun other = measured();
     LivePlay late(other);
     for (int i = 0; i < 3; ++i) (void)late.play(time + i * period);
+    late.change_to({.rate = {20}}, true);
+    (void)late.play(time + 3 * period);
     late.measure();
-    EXPECT_EQ(late.verdict().text, "what the timestep costs is measured from the next start: F9");
+    EXPECT_EQ(late.verdict().text, "What the timestep costs is not known here. F9 measures again.");
     late.control({.restarts = true}, false);
-    wait_for_copies(late, time + 3 * period);
+    wait_for_copies(late, time + 4 * period);
     EXPECT_EQ(late.verdict().text.find("F9"), std::string::npos);
+    while (!late.figures()->measured) (void)late.play(time + 4 * period);
+    EXPECT_EQ(late.figures()->measured->runs.front().stepping.rate, Rate{20});
+}
+
+/// A fall at 10 Hz whose setting may change in play, or not.
+template <bool changes>
+struct Falling {
+    static constexpr About about{
+        .name = "falling", .title = "Falling", .rate = 10, .changes_in_play = changes};
+    World world;
+    explicit Falling(const Settings& settings) : world(1, settings) {
+        world.set_gravity({-10});
+        (void)world.spawn(Body{});
+    }
+    void update(const Input&) {}
+    [[nodiscard]] Picture picture() const { return {}; }
+};
+
+/// Plays until there is a verdict, then goes back.
+template <bool changes>
+struct PlayInThePast {
+    PlayInThePast() {
+        frame();
+        do frame();
+        while (play.verdict().grade == Verdict::Grade::unknown);
+        known = play.verdict().text;
+        for (int i = 0; i < 3; ++i) frame({.rewinds = true});
+    }
+    /// Leaves time to the runs that play along.
+    void frame(const Requests& requests = {}) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        play.measure();
+        play.control(requests, false);
+        (void)play.play(time += std::chrono::milliseconds(100));
+    }
+
+    Options options = at_10_hz();
+    MakeGame make = [](const Settings& settings) {
+        return std::make_unique<AnyGameOf<Falling<changes>>>(settings);
+    };
+    AnyGameOf<Falling<changes>> game{Settings{.stepping = {.rate = {10}}}};
+    TraceWriter none{{}, {}, game.world()};
+    Playback playback{game, none, Keep::nothing};
+    LiveInput live;
+    GameRun run{.options = options,
+                .about = Falling<changes>::about,
+                .make = make,
+                .playback = playback,
+                .live = live,
+                .inputs = live};
+    LivePlay play{run};
+    std::chrono::nanoseconds time{0};
+    std::string known;
+};
+
+// The last verdict names a remedy, which stays true of the play until there.
+TEST(VerdictsBeforeGoingBack, StayUntilThereIsANewOne) {
+    PlayInThePast<true> back;
+    EXPECT_TRUE(holds(back.known, "10 Hz semi_implicit_euler")) << back.known;
+    EXPECT_EQ(back.play.verdict().text,
+              "Before you went back: " + back.known + " Playing on measures again.");
+    EXPECT_EQ(back.play.verdict().grade, Verdict::Grade::unknown);
+    back.frame();
+    EXPECT_FALSE(holds(back.play.verdict().text, "Before"));
+}
+
+TEST(VerdictsBeforeGoingBack, StayWhereNothingIsMeasuredFromThereOn) {
+    PlayInThePast<false> back;
+    for (int i = 0; i < 3; ++i) {
+        const std::string text = back.play.verdict().text;
+        EXPECT_EQ(text, "Before you went back: " + back.known + " F9 measures again.");
+        back.frame();
+    }
+    back.frame({.restarts = true});
+    EXPECT_FALSE(holds(back.play.verdict().text, "Before"));
 }
 
 TEST_F(LivePlayTest, AQuietRunMeasuresNothing) {

@@ -231,6 +231,26 @@ const std::string warning_of_the_scene =
     "spring of body 'mass': ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
     "implicit_midpoint";
 
+// The spring turns, so that a trial finds its rate: one from the state of a run that has diverged
+// would find another rate, or none, depending on how far the state has grown.
+TEST(Check, PlayAndLedgerNameOneRemedyOfADivergence) {
+    const Desk desk(
+        "[scene]\naxes = 2\nrate = 60\nmethod = \"semi_implicit_euler\"\nduration = 20.0\n"
+        "[gravity]\nacceleration = [0.0, -9.81]\n"
+        "[[body]]\nname = \"mass\"\nposition = [1.0, 0.3]\nlinear_drag = 0.2\n"
+        "[[spring]]\nbody = \"mass\"\nanchor = [0.0, 0.0]\nstiffness = 1e6\nrest_length = 1.0\n");
+    const std::string play = desk.run("oiler play scene.toml --steps 1200", 5).err;
+    const std::string warning = play.substr(0, play.find('\n'));
+    EXPECT_TRUE(holds(warning, "spring of body 'mass': ω·dt up to 16.67")) << play;
+    EXPECT_TRUE(holds(warning, "rate ≥ ")) << play;
+    const std::string cause = "is no longer finite; " + warning;
+    EXPECT_TRUE(holds(play, cause)) << play;
+    const std::string check = desk.run("oiler check scene.toml", 5).out;
+    EXPECT_TRUE(holds(check, cause)) << check;
+    const std::string ledger = desk.run("oiler ledger scene.toml", 5).err;
+    EXPECT_TRUE(holds(ledger, cause)) << ledger;
+}
+
 TEST(Check, RunsASceneWithoutABudgetAndReportsItsDivergence) {
     const Desk desk(diverging_scene(""));
     const Outcome run = desk.run("oiler check scene.toml --junit a.xml --json a.json", 5);

@@ -231,6 +231,27 @@ TEST(CoilChain, ThatDivergedNamesNoMethod) {
     EXPECT_TRUE(holds(line, "take a higher rate, or another method")) << line;
 }
 
+// A spring that turns. Its divergence names the remedy of the start, wherever the body has come to.
+TEST(CoilSpring, ThatDivergedNamesTheWarningOfItsStart) {
+    const NameOfRow name = [](std::size_t row) { return std::to_string(row); };
+    const Method& method = find_method("rk4");
+    const Steps steps{rate};
+    Bodies start(2, Precision::double_);
+    start.add({.position = {1, 0.5}}, CoilSpring{.stiffness = 1e6, .rest_length = 1});
+    const auto risks = preflight(start, method, steps);
+    ASSERT_FALSE(risks.empty());
+    const std::string warning = describe(risks.front(), method, steps, name);
+    EXPECT_TRUE(holds(warning, "rate ≥ ")) << warning;
+    for (const double far : {1e3, 1e150, 1e308}) {
+        Bodies now = start;
+        now.set_position(0, {far, far});
+        const Divergence at{10, 0, 0, Divergence::Of::position};
+        const std::string line = line_of_error(
+            Exit::diverged, [&] { fail_diverged(now, at, method, steps, name, &start); });
+        EXPECT_TRUE(line.ends_with("; " + warning)) << line;
+    }
+}
+
 /// A body 25 cm from the centre that moves straight at it with 25 cm per step.
 Bodies falling_in(Precision precision) {
     Bodies bodies(1, precision);

@@ -158,7 +158,8 @@ TEST(LiveWhatIf, ProvesTheAdvisedRateInTheNextRun) {
     EXPECT_EQ(runs.back().stepping.method, settings.stepping.method);
     EXPECT_EQ(rate_advice_text(*along.figures().measured),
               "480 Hz of this method is within a pixel so far.");
-    along.start(24, {.method = settings.stepping.method, .rate = {120}});
+    along.set_stepping({.method = settings.stepping.method, .rate = {120}});
+    along.start(24);
     along.play_until(25);
     EXPECT_EQ(along.figures().measured->runs.size(), usual)
         << "of another setting, nothing is known";

@@ -31,6 +31,31 @@ TEST(Moments, OfAGameThatQuitAreOfAnotherPlay) {
     EXPECT_FALSE(is_same_play({.quits = true}, {.quits = false}));
 }
 
+TEST(Moments, NameTheirFirstDifference) {
+    const auto name = [](Entity body) { return "body " + std::to_string(body.index); };
+    const auto difference = [&](const Moment& play, const Moment& truth) {
+        return describe_difference(play, truth, name);
+    };
+    const Moment truth{.bodies = {{one, 0, {}}, {two, 2, {}}},
+                       .readings = {{"speed", 0.5, "m/s"}, {"coins", 3}}};
+    EXPECT_EQ(difference(truth, truth), "");
+    Moment play = truth;
+    play.readings[0].value = 0.75;
+    EXPECT_EQ(difference(play, truth), "") << "no count";
+    play.bodies.push_back({three, 0, {}});
+    EXPECT_EQ(difference(play, truth), "body 3 is not in the true motion");
+    EXPECT_EQ(difference(truth, play), "body 3 is only in the true motion");
+    play.bodies[1].jumps = 1;
+    EXPECT_EQ(difference(play, truth), "teleports of body 2: 1, true 2");
+    play.readings[1].value = 2;
+    EXPECT_EQ(difference(play, truth), "coins 2, true 3");
+    play.cuts = 1;
+    EXPECT_EQ(difference(play, truth), "restarts 1, true 0");
+    play.quits = true;
+    EXPECT_EQ(difference(play, truth), "the game ends, the true motion goes on");
+    EXPECT_EQ(difference(truth, play), "the true motion has ended");
+}
+
 TEST(Moments, PairTheirBodies) {
     const Moment a{.bodies = {{one, 0, {1}}, {two, 0, {2}}, {three, 4, {3}}}};
     const Moment b{.bodies = {{two, 0, {20}}, {three, 4, {30}}, {{4, 1}, 0, {40}}}};

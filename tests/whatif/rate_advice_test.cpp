@@ -36,6 +36,12 @@ TEST(RateAdvice, NamesTheLowestMeasuredRateWithinAPixel) {
     EXPECT_EQ(rate_of(twice), 120);
     EXPECT_TRUE(advise_rate(twice)->is_measured);
     EXPECT_EQ(rate_advice_text(twice), "120 Hz of this method is within a pixel so far.");
+    WhatIf decided = twice;
+    decided.has_events_at_steps = true;
+    EXPECT_EQ(
+        rate_advice_text(decided),
+        "120 Hz of this method is within a pixel so far. Events of update() come at steps: the "
+        "rate moves them.");
     EXPECT_EQ(rate_of(measured(0.02, 0.009, 0.005, 0.01)), 60);
     EXPECT_EQ(rate_advice_text(measured(0.02, 0.009, 0.005, 0.01)),
               "This rate is within a pixel so far.");

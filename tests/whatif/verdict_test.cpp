@@ -99,6 +99,8 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     unsure.pixel_until = 1.25;
     EXPECT_EQ(judge(unsure).text,
               "Right to a pixel until 1.2 s at 60 Hz semi_implicit_euler, to 3 cm since.");
+    unsure.pixel_until = 1.29;
+    EXPECT_TRUE(holds(judge(unsure).text, "until 1.2 s")) << "no longer than is known";
     unsure.runs[0].visible_from = 1.5;
     EXPECT_EQ(judge(unsure).grade, Grade::visible) << "it was, before the reference was that bad";
     EXPECT_EQ(judge(unsure, {}, 2).text,
@@ -151,6 +153,10 @@ TEST(Verdict, NamesTheBestSettingIfNoneIsBelowAPixel) {
     cheap.runs[2].evaluations = 119;
     EXPECT_TRUE(judge(cheap).text.ends_with(" 120 Hz: 2 mm off, below 10 µs a frame."))
         << "fewer forces";
+    cheap.runs[0].costs.step = 41'000;
+    EXPECT_TRUE(judge(cheap).text.ends_with(" below 10 µs a frame.")) << "not −31 µs";
+    cheap.runs[1].costs.step = cheap.runs[2].costs.step = 12'000;
+    EXPECT_TRUE(judge(cheap).text.ends_with(" 12 instead of 41 µs a frame."));
     EXPECT_TRUE(holds(judge(measured(1e9, 1e9, 1e9)).text, "1.0e+09 m off, more than 99999 px"));
 }
 
@@ -163,6 +169,10 @@ TEST(Verdict, NamesReadingsAtRestFirst) {
     EXPECT_EQ(judge(result, result.runs[0].readings).text,
               "apex 1.95 m, true 2.025 m: 7.5 cm too low at 60 Hz semi_implicit_euler. "
               "velocity_verlet: 2 mm off, +300 µs a frame.");
+    result.runs[0].readings[0].value = std::nextafter(1.9875, 0);
+    EXPECT_TRUE(judge(result, result.runs[0].readings).text.starts_with("apex 1.988 m, true 2.025"))
+        << "a half in the last places";
+    result.runs[0].readings[0].value = 1.95;
     result.reference.readings[0].value = 1.9;
     result.check.readings[0].value = 1.9;
     EXPECT_TRUE(holds(judge(result, result.runs[0].readings).text, "5 cm too high"));
@@ -189,12 +199,19 @@ TEST(Verdict, NamesTheFailureOfTheGameAndItsCure) {
 TEST(Verdict, SaysWhenThePlayIsAnotherOne) {
     WhatIf result = measured(0.001, 0.002, 0.001);
     result.runs[0].other_play_from = 3.25;
+    result.runs[0].other_play = "coins 2, true 3";
     result.runs[1].other_play_from = 1;
     EXPECT_EQ(judge(result).grade, Grade::bad);
-    EXPECT_EQ(
-        judge(result).text,
-        "From 3.2 s on, other things happen at 60 Hz semi_implicit_euler than in the true motion. "
-        "120 Hz: 1 mm off, +1000 µs a frame.");
+    EXPECT_EQ(judge(result).text,
+              "From 3.2 s on, other things happen at 60 Hz semi_implicit_euler: coins 2, true 3. "
+              "120 Hz: 1 mm off, +1000 µs a frame.");
+    // A wrong result says more.
+    result.runs[0].readings = {{"apex", 1.95, "m"}};
+    result.reference.readings = result.check.readings = {{"apex", 2.025, "m"}};
+    EXPECT_EQ(judge(result, result.runs[0].readings).grade, Grade::bad);
+    EXPECT_EQ(judge(result, result.runs[0].readings).text,
+              "apex 1.95 m, true 2.025 m: 7.5 cm too low at 60 Hz semi_implicit_euler. "
+              "120 Hz: 1 mm off, +1000 µs a frame.");
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ struct Jump {
         : world(1, settings), body(world.spawn(Body{.velocity = {9}})), target(world.create()) {
         world.set_gravity({-gravity});
         if (hit != Hit::counts) world.add_body(target, Body{.position = {50}});
+        world.add(target, Name{"target"});
         add_crowd(world);
     }
     void update(const Input&, Loop& loop) {
@@ -336,6 +337,7 @@ TEST(WhatIf, AnotherPlayIsSeenWhereRatesShareNoSteps) {
     using Game = Jump<Hit::destroys>;
     const WhatIf result = measure<Game>(record<Game>(), "59,59@velocity_verlet");
     EXPECT_EQ(result.runs[1].other_play_from, 25 / 60.0);
+    EXPECT_EQ(result.runs[1].other_play, "target is not in the true motion");
     EXPECT_FALSE(result.runs[2].other_play_from) << "meets the target, a step later";
 }
 // The target falls, too: from the same height, but later.
@@ -366,6 +368,17 @@ struct Bounce {
     [[nodiscard]] Picture picture() const { return {.camera = {.height = camera_height}}; }
 };
 
+// Events of the updates come at steps; impacts come between them.
+TEST(WhatIf, KnowsWhetherEventsComeAtSteps) {
+    EXPECT_TRUE(measure<Commuter>(record<Commuter>("rk4"), "120").has_events_at_steps);
+    EXPECT_TRUE(
+        measure<Jump<Hit::counts>>(record<Jump<Hit::counts>>("rk4"), "120").has_events_at_steps);
+    EXPECT_FALSE(
+        measure<Jump<Hit::restarts>>(record<Jump<Hit::restarts>>("rk4"), "120").has_events_at_steps)
+        << "the picture is cut there";
+    EXPECT_FALSE(measure<Bounce>(record<Bounce>(), "120").has_events_at_steps);
+}
+
 // The bounce lies at a = 0.4 of a step, of which the picture cuts the corner: there it is
 // 2·v·dt·a(1 − a) above the floor.
 TEST(WhatIf, SeesTheCornerThatThePictureCutsAtABounce) {
@@ -375,6 +388,8 @@ TEST(WhatIf, SeesTheCornerThatThePictureCutsAtABounce) {
     EXPECT_LT(result.runs[0].distance_at_steps, 1e-9);
     const double half = 2 * Bounce::speed / 120 * 0.8 * 0.2;  // 0.8 of the first half
     EXPECT_NEAR(result.runs[1].distance, half, 1e-9);
+    // It exceeds a pixel of 1 cm at 0.4/2.4 of the step; the next sixteenth is the third.
+    EXPECT_EQ(result.runs[0].visible_from, (30 + 3 / 16.0) / rate) << "before the bounce";
     // 30.4 steps are 25 1/3 of 50 Hz, and 15.2 of 30 Hz.
     EXPECT_NEAR(result.runs[2].distance, 2 * Bounce::speed / 50 * (1 / 3.0) * (2 / 3.0), 1e-9);
     EXPECT_NEAR(result.runs[3].distance, 2 * Bounce::speed / 30 * 0.2 * 0.8, 1e-9);

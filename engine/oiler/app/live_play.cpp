@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 namespace oiler {
 namespace {
+
+/// The remedy where a game cannot be measured from its state on.
+constexpr std::string_view measures_on_restart = "F9 measures again.";
 
 std::chrono::nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
@@ -83,6 +87,7 @@ void LivePlay::set_pace(const Requests& requests) {
 }
 
 void LivePlay::control(const Requests& requests, bool restarts) {
+    if (const auto wanted = playback_.game().take_wanted_rate()) change_rate(*wanted);
     if (requests.stepping) change_to(*requests.stepping, requests.changes_from_start);
     if (requests.threads) is_possible([&] { playback_.game().set_threads(*requests.threads); });
     // A game that takes no steps sees no keys.
@@ -115,6 +120,16 @@ void LivePlay::change_to(const Stepping& stepping, bool from_start) {
         change_.want(stepping);
 }
 
+/// Makes the game anew at the rate that it asks for, unless the setting is fixed.
+void LivePlay::change_rate(std::int64_t hertz) {
+    const std::string fixed = why_fixed(run_.options, run_.about);
+    if (!fixed.empty()) return complain(fixed);
+    Stepping stepping = playback_.world().settings().stepping;
+    if (stepping.rate == Rate{hertz}) return;
+    stepping.rate = {hertz};
+    change_to(stepping, true);
+}
+
 /// Whether the game can have a setting, which f() gives it. Else the player is told why.
 template <class F>
 bool LivePlay::is_possible(F f) {
@@ -139,7 +154,7 @@ void LivePlay::restart_with(const Stepping& stepping) {
         }))
         return;
     begin_setting();
-    if (measures_) what_if_->start(playback_.steps(), stepping);
+    if (measures_) what_if_->start(playback_.steps());
 }
 
 /// Changes to the wanted setting if that has a tick until `step`.
@@ -154,7 +169,10 @@ void LivePlay::change_until(std::int64_t step) {
 /// Restarts the clock at the game's rate and forgets all earlier steps.
 void LivePlay::begin_setting() {
     const std::int64_t step = playback_.steps();
-    clock_.begin(playback_.world().settings().stepping.rate, step, !divergence_);
+    verdict_before_.clear();
+    const Stepping& stepping = playback_.world().settings().stepping;
+    if (what_if_) what_if_->set_stepping(stepping);
+    clock_.begin(stepping.rate, step, !divergence_);
     playback_.go_to(step);
     divergence_.reset();
     past_.forget(step);
@@ -162,6 +180,7 @@ void LivePlay::begin_setting() {
 
 void LivePlay::restart() {
     restarted_at_ = playback_.steps();
+    verdict_before_.clear();
     if (measures_) what_if_->repeat(restarted_at_);
     divergence_.reset();
     past_.leave();
@@ -175,15 +194,14 @@ void LivePlay::measure() {
     if (playback_.steps() == 0)
         what_if_->start(0);
     else
-        measure_from_here("what the timestep costs is measured from the next start: F9");
+        measure_from_here();
 }
 
-/// `else_reason` is shown if the game's setting cannot be changed while it is played.
-void LivePlay::measure_from_here(const char* else_reason) {
+void LivePlay::measure_from_here() {
     if (run_.about.changes_in_play)
         what_if_->start_from(playback_.game(), playback_.steps());
     else
-        what_if_->stop(else_reason);
+        what_if_->stop(with_verdict_before(measures_on_restart));
 }
 
 Picture& LivePlay::play(std::chrono::nanoseconds time) {
@@ -226,6 +244,7 @@ Picture& LivePlay::next_picture() {
 /// takes another step.
 void LivePlay::go_back_to(std::int64_t step) {
     step = std::clamp(step, past_.first(), past_.last());
+    if (what_if_ && !past_.is_in_past()) keep_verdict(what_if_->figures());
     const std::optional<Input> last = past_.go_to(step, playback_.steps(), divergence_.has_value());
     if (last) {
         run_.live.queue.continue_after(*last);
@@ -237,8 +256,18 @@ void LivePlay::go_back_to(std::int64_t step) {
 
 void LivePlay::play_on_from_past() {
     past_.leave();
-    if (measures_)
-        measure_from_here("what the timestep costs is no longer measured: you went back");
+    if (measures_) measure_from_here();
+}
+
+void LivePlay::keep_verdict(const LiveFigures& figures) {
+    if (figures.measured && figures.measured->certain_until > 0)
+        verdict_before_ = figures.verdict.text;
+}
+
+std::string LivePlay::with_verdict_before(std::string_view remedy) const {
+    return verdict_before_.empty()
+               ? fmt::format("What the timestep costs is not known here. {}", remedy)
+               : fmt::format("Before you went back: {} {}", verdict_before_, remedy);
 }
 
 LivePlay::State LivePlay::state() const {
@@ -281,9 +310,8 @@ double LivePlay::alpha() const {
 std::string LivePlay::no_verdict() const {
     if (!what_if_) return "what the timestep costs is not measured with --quiet";
     if (!past_.is_in_past()) return {};
-    return run_.about.changes_in_play
-               ? "what the timestep costs is measured again when you play on"
-               : "what the timestep costs is not measured when you play on from here";
+    return with_verdict_before(run_.about.changes_in_play ? "Playing on measures again."
+                                                          : measures_on_restart);
 }
 
 Verdict LivePlay::verdict() const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "oiler/app/game_clock.hpp"
@@ -132,13 +133,17 @@ public:
 
 private:
     [[nodiscard]] Picture& next_picture();
-    void measure_from_here(const char* else_reason);
+    void measure_from_here();
+    void change_rate(std::int64_t hertz);
     void restart();
     void restart_with(const Stepping& stepping);
     void change_until(std::int64_t step);
     void begin_setting();
     void go_back_to(std::int64_t step);
     void play_on_from_past();
+    void keep_verdict(const LiveFigures& figures);
+    /// The last verdict before the player went back, and how to get a new one.
+    [[nodiscard]] std::string with_verdict_before(std::string_view remedy) const;
     template <class F>
     bool is_possible(F f);
 
@@ -155,6 +160,7 @@ private:
     std::optional<Error> divergence_;     ///< it stops the game
     std::int64_t restarted_at_ = -1;      ///< the number of steps before the last restart
     std::string complaint_;
+    std::string verdict_before_;  ///< the last one of this play before it went back; empty: none
     std::chrono::nanoseconds show_time_{0};
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -172,6 +173,10 @@ public:
     /// The number of times that the world was replaced: no picture between two worlds is drawn.
     [[nodiscard]] std::int64_t cuts() const { return cuts_; }
     [[nodiscard]] const Loop& loop() const { return loop_; }
+    /// See Loop.
+    [[nodiscard]] std::optional<std::int64_t> take_wanted_rate() {
+        return loop_.take_wanted_rate();
+    }
     /// Makes it a rehearsal, see Loop.
     void rehearse() { loop_.rehearse(); }
     [[nodiscard]] virtual const World& world() const = 0;

@@ -4,7 +4,9 @@
 // The requests, input, readings and times that a game and its loop exchange.
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "oiler/input/input.hpp"
@@ -24,6 +26,9 @@ public:
     void text_input(bool on) { takes_text_ = on; }
     /// Ends the program after this update.
     void quit() { quits_ = true; }
+    /// Asks a window for that rate, Hz: it makes the game anew with it. A run whose setting is
+    /// fixed keeps its rate, as every run without a window does.
+    void change_rate(std::int64_t hertz) { wanted_rate_ = hertz; }
     /// Whether this is a copy of the game that plays along to measure what the timestep costs. Such
     /// copies play in another thread: whatever leaves the game, such as a sound, a line of a log or
     /// a saved file, is for the game alone.
@@ -34,6 +39,10 @@ public:
     [[nodiscard]] bool holds() const { return holds_; }
     [[nodiscard]] bool takes_text() const { return takes_text_; }
     [[nodiscard]] bool quits() const { return quits_; }
+    /// The requested rate, Hz, once.
+    [[nodiscard]] std::optional<std::int64_t> take_wanted_rate() {
+        return std::exchange(wanted_rate_, std::nullopt);
+    }
     /// Clears the requests that hold for one step.
     void begin_step() { restarts_ = holds_ = false; }
 
@@ -43,6 +52,7 @@ private:
     bool takes_text_ = false;
     bool quits_ = false;
     bool is_rehearsal_ = false;
+    std::optional<std::int64_t> wanted_rate_{};
 };
 
 /// The source of the input that the steps of a game see.

@@ -2,6 +2,7 @@
 #include "oiler/scene/make_world.hpp"
 
 #include <map>
+#include <memory>
 
 #include "oiler/core/random.hpp"
 #include "oiler/world/name.hpp"
@@ -154,7 +155,11 @@ Scene with_seed(Scene scene, std::uint64_t seed) {
 }
 
 World make_world(const Scene& scene, const Settings& settings) {
-    return WorldBuilder(scene, settings).run();
+    World world = WorldBuilder(scene, settings).run();
+    world.set_start([start = std::make_shared<const Scene>(scene)](const Settings& other) {
+        return WorldBuilder(*start, other).run();
+    });
+    return world;
 }
 
 }  // namespace oiler

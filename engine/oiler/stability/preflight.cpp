@@ -135,25 +135,47 @@ std::string describe_grown_drag(const Risk& risk, const Method& method, const St
                        risk.remedy ? risk.remedy->name : "another method");
 }
 
+/// The first risk of the body in that row, or of a body linked with it; null if there is none.
+const Risk* risk_of(std::size_t row, const std::vector<Risk>& risks, const Bodies& bodies) {
+    const std::vector<std::size_t> labels = component_labels(bodies);
+    const auto own = std::ranges::find_if(
+        risks, [&](const Risk& risk) { return labels[risk.row] == labels[row]; });
+    return own == risks.end() ? nullptr : &*own;
+}
+
+/// The line with which preflight warned of a run that has diverged; empty if it did not.
+std::string warning_at_start(const Bodies& start, std::size_t row, const Method& method,
+                             const Steps& steps, const NameOfRow& name) {
+    const Steps one{steps.rate, 0, 1, steps.damping};
+    std::vector<Risk> risks = preflight(start, method, one);
+    std::erase_if(risks, [](const Risk& risk) {
+        return risk.of == Risk::Of::told || risk.of == Risk::Of::overdamped;
+    });
+    if (risks.empty() || row >= start.size()) return "";
+    const Risk* const own = risk_of(row, risks, start);
+    return describe(own ? *own : risks.front(), method, one, name);
+}
+
 std::string likely_cause(const Bodies& bodies, const Divergence& at, const Method& method,
-                         const Steps& steps, const NameOfRow& name) {
+                         const Steps& steps, const NameOfRow& name, const Bodies* start) {
     const std::string by_default = "take a higher rate, or another method";
+    if (start && at.of != Divergence::Of::solution)
+        if (std::string warning = warning_at_start(*start, at.row, method, steps, name);
+            !warning.empty())
+            return warning;
     std::vector<Risk> risks = preflight(bodies, method, steps);
     std::erase_if(risks, [](const Risk& risk) {
         return risk.of == Risk::Of::told || risk.of == Risk::Of::explosion ||
                risk.of == Risk::Of::overdamped;
     });
-    const std::vector<std::size_t> labels = component_labels(bodies);
-    const auto own = std::find_if(risks.begin(), risks.end(), [&](const Risk& risk) {
-        return labels[risk.row] == labels[at.row];
-    });
-    if (own != risks.end() && own->of == Risk::Of::on_attractor) {
+    const Risk* const own = risk_of(at.row, risks, bodies);
+    if (own && own->of == Risk::Of::on_attractor) {
         const std::string cause = describe(*own, method, steps, name);
         const bool is_start = at.tick == 1;
         return is_start ? cause : fmt::format("{}; if it moved there, {}", cause, by_default);
     }
     if (risks.empty() || at.of == Divergence::Of::solution) return by_default;
-    const Risk& cause = own == risks.end() ? risks.front() : *own;
+    const Risk& cause = own ? *own : risks.front();
     // The orbit of a body that hit its attractor is no longer known.
     if (is_attraction(cause) && !std::isfinite(cause.omega_dt)) return by_default;
     if (cause.of == Risk::Of::quadratic_drag && std::isfinite(cause.damping_dt))
@@ -230,13 +252,13 @@ std::string describe(const Risk& risk, const Method& method, const Steps& steps,
 }
 
 void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,
-                   const Steps& steps, const NameOfRow& name) {
+                   const Steps& steps, const NameOfRow& name, const Bodies* start) {
     const std::string where = describe(at, method, steps.rate, bodies.link_count() > 0, name);
-    fail(Exit::diverged, "{}; {}", where, likely_cause(bodies, at, method, steps, name));
+    fail(Exit::diverged, "{}; {}", where, likely_cause(bodies, at, method, steps, name, start));
 }
 
 void require_finite(const Energy& energy, const Bodies& bodies, const Method& method,
-                    const Steps& steps, const NameOfRow& name) {
+                    const Steps& steps, const NameOfRow& name, const Bodies* start) {
     if (std::isfinite(energy.total())) return;
     const bool is_start = steps.first == 0;
     const bool is_on_attractor = energy.total() < 0;
@@ -245,7 +267,7 @@ void require_finite(const Energy& energy, const Bodies& bodies, const Method& me
              describe_start(energy, bodies, name));
     const std::size_t row = row_of_overflow(bodies, true);
     const std::string cause = likely_cause(
-        bodies, {steps.first + 1, row, 0, Divergence::Of::velocity}, method, steps, name);
+        bodies, {steps.first + 1, row, 0, Divergence::Of::velocity}, method, steps, name, start);
     if (is_start) fail(Exit::diverged, "the energy is not finite at the start: {}", cause);
     fail(Exit::diverged,
          "the energy is no longer finite at tick {}: body {} moves at {:.3g} m/s; {}", steps.first,

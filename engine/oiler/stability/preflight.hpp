@@ -93,13 +93,15 @@ void add_distortions(const Bodies& bodies, const Method& method, const Steps& st
 [[nodiscard]] std::string describe(const Risk& risk, const Method& method, const Steps& steps,
                                    const NameOfRow& name);
 
-/// Throws Error{diverged} with step, body, field and the likely cause.
+/// Throws Error{diverged} with step, body, field and the likely cause: a risk of the bodies at the
+/// `start` of the run, which may be null, else one of the bodies that have diverged.
 [[noreturn]] void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,
-                                const Steps& steps, const NameOfRow& name);
+                                const Steps& steps, const NameOfRow& name,
+                                const Bodies* start = nullptr);
 
 /// Throws Error{diverged} if the energy of the bodies before the steps is not finite, with the
 /// tick, the body and the likely cause. Squares overflow before the state does.
 void require_finite(const Energy& energy, const Bodies& bodies, const Method& method,
-                    const Steps& steps, const NameOfRow& name);
+                    const Steps& steps, const NameOfRow& name, const Bodies* start = nullptr);
 
 }  // namespace oiler

@@ -26,11 +26,6 @@ AlongFrom LiveWhatIf::start_of_game() const {
     return {.play = play_, .make = make_, .is_start = true};
 }
 
-void LiveWhatIf::start(std::int64_t first, const Stepping& stepping) {
-    play_.settings.stepping = stepping;
-    start(first);
-}
-
 void LiveWhatIf::start(std::int64_t first) { measure(first, start_of_game()); }
 
 void LiveWhatIf::repeat(std::int64_t first) {
@@ -40,7 +35,7 @@ void LiveWhatIf::repeat(std::int64_t first) {
 }
 
 void LiveWhatIf::start_from(const AnyGame& game, std::int64_t first) {
-    play_.settings.stepping = game.world().settings().stepping;
+    set_stepping(game.world().settings().stepping);
     measure(
         first,
         {.play = play_,

@@ -27,8 +27,8 @@ public:
 
     /// Begins with a new game, before its step `first`.
     void start(std::int64_t first);
-    /// Begins with a new game and another setting.
-    void start(std::int64_t first, const Stepping& stepping);
+    /// The setting of the next new game.
+    void set_stepping(const Stepping& stepping) { play_.settings.stepping = stepping; }
     /// Begins again with a new game; the rate that the last result advises plays along, too. Unless
     /// there is input, the last result stays until as much is measured again.
     void repeat(std::int64_t first);

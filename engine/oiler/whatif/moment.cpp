@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/whatif/moment.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -15,13 +17,38 @@ bool is_same_body(const Moment::Placed& one, const Moment::Placed& other) {
     return one.entity == other.entity && one.jumps == other.jumps;
 }
 
+bool is_same_count(const Reading& one, const Reading& other) {
+    const bool counts = is_whole(one.value) && is_whole(other.value);
+    return one.name == other.name && (!counts || one.value == other.value);
+}
+
 bool is_same_but_bodies(const Moment& a, const Moment& b) {
-    const auto same_count = [](const Reading& one, const Reading& other) {
-        const bool counts = is_whole(one.value) && is_whole(other.value);
-        return one.name == other.name && (!counts || one.value == other.value);
-    };
     return a.cuts == b.cuts && a.quits == b.quits &&
-           std::ranges::equal(a.readings, b.readings, same_count);
+           std::ranges::equal(a.readings, b.readings, is_same_count);
+}
+
+/// "coins 2, true 3"
+std::string two_counts(const std::string& name, double play, double truth) {
+    return fmt::format("{} {:g}, true {:g}", name, play, truth);
+}
+
+/// Names the first body that only one of two plays has, or that was teleported more often in one.
+std::string describe_bodies(const Moment& play, const Moment& truth,
+                            const std::function<std::string(Entity)>& name_of) {
+    const auto find = [](const Moment& in, Entity entity) {
+        return std::ranges::find(in.bodies, entity, &Moment::Placed::entity);
+    };
+    for (const Moment::Placed& body : play.bodies) {
+        const auto other = find(truth, body.entity);
+        if (other == truth.bodies.end()) return name_of(body.entity) + " is not in the true motion";
+        if (other->jumps != body.jumps)
+            return two_counts("teleports of " + name_of(body.entity) + ":", body.jumps,
+                              other->jumps);
+    }
+    for (const Moment::Placed& body : truth.bodies)
+        if (find(play, body.entity) == play.bodies.end())
+            return name_of(body.entity) + " is only in the true motion";
+    return "";
 }
 
 std::uint64_t id_of(const Moment::Placed& body) { return body.entity.id(); }
@@ -54,6 +81,21 @@ Moment moment_of(const AnyGame& game) {
 
 bool is_same_play(const Moment& a, const Moment& b) {
     return is_same_but_bodies(a, b) && std::ranges::equal(a.bodies, b.bodies, is_same_body);
+}
+
+std::string describe_difference(const Moment& play, const Moment& truth,
+                                const std::function<std::string(Entity)>& name_of) {
+    if (play.quits != truth.quits)
+        return play.quits ? "the game ends, the true motion goes on" : "the true motion has ended";
+    if (play.cuts != truth.cuts)
+        return two_counts("restarts", static_cast<double>(play.cuts),
+                          static_cast<double>(truth.cuts));
+    const auto [own, other] = std::ranges::mismatch(play.readings, truth.readings, is_same_count);
+    if (own != play.readings.end() && other != truth.readings.end() && own->name == other->name)
+        return two_counts(own->name, own->value, other->value);
+    if (own != play.readings.end() || other != truth.readings.end())
+        return "the readings have other names";
+    return describe_bodies(play, truth, name_of);
 }
 
 std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies(const Moment& a,

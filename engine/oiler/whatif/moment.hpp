@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,11 @@ struct Moment {
 
 /// Whether bodies, teleports, restarts and whole-number readings are the same.
 [[nodiscard]] bool is_same_play(const Moment& a, const Moment& b);
+
+/// Names the first difference of a play from the true one: "coins 2, true 3", "ball is only in the
+/// true motion". Empty if they are the same play. `name_of` names a body of either.
+[[nodiscard]] std::string describe_difference(const Moment& play, const Moment& truth,
+                                              const std::function<std::string(Entity)>& name_of);
 
 /// Pairs of the bodies that both have and that were teleported equally often.
 [[nodiscard]] std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies(

@@ -113,7 +113,9 @@ std::vector<std::int64_t> rates_to_try(const WhatIf& measured) {
     return rates;
 }
 
-std::string rate_advice_text(const WhatIf& measured) {
+namespace {
+
+std::string text_of_advice(const WhatIf& measured) {
     const WhatIfRun& played = measured.runs.front();
     const auto advice = advise_rate(measured);
     if (advice && advice->is_measured)
@@ -131,6 +133,15 @@ std::string rate_advice_text(const WhatIf& measured) {
                                : fmt::format("about {} Hz", to_two_digits(*promised)));
     return std::isnan(played.distance) ? ""
                                        : "No rate within a pixel is known yet for this method.";
+}
+
+}  // namespace
+
+std::string rate_advice_text(const WhatIf& measured) {
+    const std::string advice = text_of_advice(measured);
+    return advice.empty() || !measured.has_events_at_steps
+               ? advice
+               : advice + " Events of update() come at steps: the rate moves them.";
 }
 
 }  // namespace oiler

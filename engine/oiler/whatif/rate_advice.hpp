@@ -26,7 +26,7 @@ struct RateAdvice {
 [[nodiscard]] std::vector<std::int64_t> rates_to_try(const WhatIf& measured);
 
 /// "120 Hz of this method is within a pixel so far.", or the rate it would need; empty if nothing
-/// is measured.
+/// is measured. Where the game's updates decide events, it says that those depend on the rate.
 [[nodiscard]] std::string rate_advice_text(const WhatIf& measured);
 
 }  // namespace oiler

@@ -56,7 +56,9 @@ std::string price_text(const WhatIfRun& run, const WhatIf& measured) {
     if (std::max(cost(run), played) < least_cost) return "below 10 µs a frame";
     const double more = cost(run) - played;
     if (std::abs(more) < std::max(least_cost, 0.2 * played)) return "for about the same time";
-    return fmt::format("{}{:.0f} µs a frame", more < 0 ? "−" : "+", std::abs(more) / 1000);
+    if (more > 0) return fmt::format("+{:.0f} µs a frame", more / 1000);
+    if (cost(run) < least_cost) return "below 10 µs a frame";
+    return fmt::format("{:.0f} instead of {:.0f} µs a frame", cost(run) / 1000, played / 1000);
 }
 
 std::string error_text(const WhatIfRun& run, const WhatIf& measured) {
@@ -105,9 +107,10 @@ std::string reading_text(const WhatIf& measured, const Reading& played) {
     const auto index = static_cast<std::size_t>(&played - measured.runs.front().readings.data());
     const double truth = measured.reference.readings[index].value;
     const double off = std::abs(played.value - truth);
-    return fmt::format("{} {:.4g} {}, true {:.4g} {}: {} too {} at {}.", played.name, played.value,
-                       played.unit, truth, played.unit, amount_text(off, played.unit),
-                       played.value < truth ? "low" : "high",
+    constexpr double up = 1 + 1e-9;  // rounds halves up, whatever their last places
+    return fmt::format("{} {:.4g} {}, true {:.4g} {}: {} too {} at {}.", played.name,
+                       up * played.value, played.unit, up * truth, played.unit,
+                       amount_text(off, played.unit), played.value < truth ? "low" : "high",
                        short_text(measured.runs.front().stepping));
 }
 
@@ -134,6 +137,14 @@ std::string end_text(const WhatIf& measured, double begin) {
     return fmt::format(" After {:.1f} s the true motion is not known.", until);
 }
 
+/// Names the first event that is not one of the true motion.
+std::string other_play_text(const WhatIf& measured, double begin) {
+    const WhatIfRun& played = measured.runs.front();
+    return fmt::format("From {:.1f} s on, other things happen at {}: {}.",
+                       begin + *played.other_play_from, short_text(played.stepping),
+                       played.other_play);
+}
+
 /// Describes a distance that is only known to be below a limit, which is above a pixel.
 std::string limit_text(const WhatIf& measured, double begin, const std::string& setting) {
     const WhatIfRun& played = measured.runs.front();
@@ -143,8 +154,9 @@ std::string limit_text(const WhatIf& measured, double begin, const std::string& 
                            begin + *played.visible_from, setting, limit);
     if (!(measured.pixel_until > 0))
         return fmt::format("Right to {} so far at {}.", limit, setting);
-    return fmt::format("Right to a pixel until {:.1f} s at {}, to {} since.",
-                       begin + measured.pixel_until, setting, limit);
+    const double until = std::floor(10 * (begin + measured.pixel_until)) / 10;
+    return fmt::format("Right to a pixel until {:.1f} s at {}, to {} since.", until, setting,
+                       limit);
 }
 
 /// The largest distance of a body as drawn.
@@ -174,14 +186,14 @@ Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before
     if (!(measured.certain_until > 0) || (std::isnan(played.distance) && !played.other_play_from))
         return {Grade::unknown, fmt::format("What {} costs is not known yet.", setting)};
     const std::string end = end_text(measured, begin);
+    const Reading* const reading = worst_reading(measured, before);
     if (played.other_play_from)
-        return {
-            Grade::bad,
-            fmt::format("From {:.1f} s on, other things happen at {} than in the true motion.{}{}",
-                        begin + *played.other_play_from, setting, cure_text(measured), end)};
+        return {Grade::bad,
+                (reading ? reading_text(measured, *reading) : other_play_text(measured, begin)) +
+                    cure_text(measured) + end};
     const auto now = [&](Grade grade) { return is_known_now(measured) ? grade : Grade::unknown; };
     const Grade grade = measured.grade_of(played);
-    if (const Reading* const reading = worst_reading(measured, before))
+    if (reading)
         return {now(std::max(grade, Grade::visible)),
                 reading_text(measured, *reading) + cure_text(measured) + end};
     return {now(grade), distance_text(measured, begin, name_of) + end};

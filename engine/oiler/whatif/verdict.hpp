@@ -19,13 +19,14 @@ struct Verdict {
 };
 
 /// Judges the recorded setting, the first of the runs, which begins at `begin`, s. The sentence
-/// names a failure, else other events, else a wrong reading, else the body with the largest error.
+/// names a failure, else a wrong reading, else other events, else the body with the largest error.
 /// Then it names the cure: the cheapest other run with an error below a pixel, or else the most
 /// accurate one.
 ///
 /// A reading in m is wrong if its error exceeds a pixel, in another unit if it exceeds 1 %.
 /// Readings that changed since `before` are not judged: they may be a step late, which is no error.
-/// Only certain errors are named, see KnownError. Prices below 10 µs a frame are not compared.
+/// Only certain errors are named, see KnownError. Prices below 10 µs a frame are not compared, and
+/// none is negative.
 ///
 /// The grade is that of the present moment: it is unknown where the true motion is known until an
 /// earlier moment only. Then the sentence says until when, and why.

@@ -93,7 +93,8 @@ constexpr const char* legend = R"(
 distance: largest distance of a body, as it is drawn, from the same body of the reference.
 at steps: the same where a step of the setting and a recorded one begin.
 readings: at the end, or at the last recorded step that a setting has, too, and what they are off there.
-1 px: the time from which it certainly exceeds a pixel of the game's camera, at 720 lines.
+1 px: the time from which it certainly exceeds a pixel of the game's camera, at 720 lines, to a
+   sixteenth of a recorded step.
 other play: the time from which bodies, restarts or counts differ; nothing later is counted.
 ns per frame: at 60 frames per second, means without the fastest and the slowest quarter.
 <: below 10 times the difference between the reference and the run that checks it. What a game does
@@ -158,6 +159,10 @@ std::string table_of_runs(const WhatIf& result) {
     for (const WhatIfRun& run : result.runs)
         if (!run.failure.empty())
             text += fmt::format("  {} failed: {}\n", table_text(run.stepping), run.failure);
+    for (const WhatIfRun& run : result.runs)
+        if (run.other_play_from)
+            text +=
+                fmt::format("  other play of {}: {}\n", table_text(run.stepping), run.other_play);
     return text;
 }
 
@@ -216,6 +221,7 @@ Json to_json(const WhatIfRun& run, const WhatIf& result) {
     json["distance_at_steps"] = run.distance_at_steps;
     json["visible_from"] = time(run.visible_from);
     json["other_play_from"] = time(run.other_play_from);
+    json["other_play"] = run.other_play_from ? Json(run.other_play) : Json();
     json["failure"] = run.failure.empty() ? Json() : Json(run.failure);
     json["readings"] = readings_to_json(run, result);
     json["ns_per_frame"] = {{"update", run.costs.update},

@@ -36,11 +36,13 @@ struct WhatIfRun {
     /// The largest distance at steps alone, m.
     double distance_at_steps = std::numeric_limits<double>::quiet_NaN();
     double distance_now = 0;  ///< m, as drawn, the largest in the last recorded step
-    /// The time from which a body is further away than a pixel plus the uncertainty, s.
+    /// The time from which a body is further away than a pixel plus the uncertainty, s: the first
+    /// of the compared instants, of which each recorded step has 16.
     std::optional<double> visible_from{};
     /// The time from which the play is another one, s. No distance is counted from there on.
     std::optional<double> other_play_from{};
-    std::string failure{};  ///< the error that ended the run; empty: none
+    std::string other_play{};  ///< the difference then, such as "coins 2, true 3"
+    std::string failure{};     ///< the error that ended the run; empty: none
     /// The readings at the last recorded step that coincides with a step of the run, and the
     /// reference's readings then.
     std::vector<Reading> readings{};
@@ -64,6 +66,9 @@ struct WhatIf {
     /// The time in which the uncertainty grew tenfold, up to a pixel, where the true motion was
     /// lost; empty if it is known until the end, or was lost by other events.
     std::optional<double> tenfold{};
+    /// Whether bodies, teleports or counts of the played run changed between its steps: such events
+    /// come at steps, whatever the method.
+    bool has_events_at_steps = false;
     double uncertainty = 0;         ///< m, the distance of `check` from the reference until then
     double pixel = 0;               ///< m, at the end
     WhatIfRun reference;            ///< the finest run

@@ -28,6 +28,11 @@ std::int64_t steps_of_frame(Rate rate) {
     return std::max<std::int64_t>(1, std::llround(1 / (rate.dt() * frames_per_second)));
 }
 
+/// Whether a game changed bodies or counts between two moments, apart from a restart.
+bool has_event(const Moment& before, const Moment& after) {
+    return before.cuts == after.cuts && !is_same_play(before, after);
+}
+
 /// Keeps the last 4096 times.
 void keep(Times& times, std::chrono::nanoseconds time, std::int64_t step) {
     constexpr std::size_t most = 4096;
@@ -224,15 +229,21 @@ void SettingRun::fail_with(const Error& error) {
 }
 
 void SettingRun::compare(std::int64_t recorded, double time, const Moment& reference,
-                         double visible) {
+                         const AnyGame& true_game, double visible) {
     if (failed() || result_.other_play_from) return;
     const std::optional<Apart> apart = largest_distance(reference, moment());
     const bool is_at_step = ratio_.has(recorded);
     if (!apart) {
         const double late = is_at_step ? 0 : result_.stepping.rate.dt();
-        differs_from_ = differs_from_.value_or(time);
-        if (time - *differs_from_ >= lasting_difference + late)
-            result_.other_play_from = differs_from_;
+        if (!differs_from_) {
+            differs_from_ = time;
+            difference_ = describe_difference(moment(), reference, [&](Entity body) {
+                return (game_->world().has_body(body) ? *game_ : true_game).name_of(body);
+            });
+        }
+        if (time - *differs_from_ < lasting_difference + late) return;
+        result_.other_play_from = differs_from_;
+        result_.other_play = difference_;
         return;
     }
     differs_from_.reset();
@@ -248,7 +259,9 @@ void SettingRun::note(const Apart& apart, double time, double visible) {
         result_.furthest = apart.body;
     }
     result_.distance_now = std::max(result_.distance_now, apart.distance);
-    if (apart.distance > visible && !result_.visible_from) result_.visible_from = time;
+    // The impacts of a step are compared before its instants.
+    if (apart.distance > visible)
+        result_.visible_from = std::min(time, result_.visible_from.value_or(time));
 }
 
 void SettingRun::read(std::int64_t recorded, const std::vector<Reading>& truth) {
@@ -309,6 +322,7 @@ void WhatIfRuns::play_until(std::int64_t step) {
     before_ = runs_.front()->moment();
     step_ = step;
     for (const auto& run : runs_) run->play_until(step, truth_, visible());
+    if (!has_events_at_steps_) has_events_at_steps_ = has_event(before_, runs_.front()->moment());
     const std::vector<Reading> truth = reference_.game().readings();
     for (SettingRun* const run : {&reference_, &check_}) run->read(step, truth);
     for (const auto& run : runs_) run->read(step, truth);
@@ -317,7 +331,8 @@ void WhatIfRuns::play_until(std::int64_t step) {
     if (step > 0 && !runs_.front()->failed()) replay_.after(step - 1, runs_.front()->game());
     if (!is_known) return;
     const double time = recording_.header.stepping.rate.time(step);
-    for (const auto& run : runs_) run->compare(step, time, truth_.moments.back().moment, visible());
+    for (const auto& run : runs_)
+        run->compare(step, time, truth_.moments.back().moment, reference_.game(), visible());
     if (KnownError(recorded().distance, uncertainty_).most() <= pixel_) pixel_until_ = time;
 }
 
@@ -362,7 +377,7 @@ bool WhatIfRuns::check(std::int64_t step, const Moment& moment) {
     const double time = rate.time(step);
     if (step % steps_of_frame(rate) == 0)
         pixel_ = static_cast<double>(reference_.game().picture().camera.height) / pixels_of_height;
-    check_.compare(step, time, moment, pixel_);
+    check_.compare(step, time, moment, reference_.game(), pixel_);
     certain_ = !check_.result().other_play_from && !check_.result().visible_from;
     if (check_.result().visible_from && small_until_)
         tenfold_ = (*check_.result().visible_from - *small_until_) / std::log10(1 / small);
@@ -406,6 +421,7 @@ WhatIf WhatIfRuns::result() const {
                   .certain_until = certain_until_,
                   .pixel_until = pixel_until_,
                   .tenfold = tenfold_,
+                  .has_events_at_steps = has_events_at_steps_,
                   .uncertainty = uncertainty_,
                   .pixel = pixel_,
                   .reference = reference_.finish(),

@@ -6,6 +6,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "oiler/core/size.hpp"
@@ -94,8 +95,9 @@ public:
     /// Takes all steps until an instant, and adds their impacts.
     void play_until_instant(std::int64_t index, std::deque<TrueImpact>* impacts = nullptr);
     /// Compares the play with the reference as that recorded step begins, `time` in s, and the
-    /// places of bodies if a step of this run begins then, too.
-    void compare(std::int64_t recorded, double time, const Moment& reference, double visible);
+    /// places of bodies if a step of this run begins then, too. `true_game` is the reference.
+    void compare(std::int64_t recorded, double time, const Moment& reference,
+                 const AnyGame& true_game, double visible);
     /// Reads the game as that recorded step begins, if a step of this run begins then, too.
     /// `truth` are the readings of the reference.
     void read(std::int64_t recorded, const std::vector<Reading>& truth);
@@ -134,6 +136,7 @@ private:
     std::int64_t evaluations_ = 0;
     std::optional<Moment> moment_;  ///< empty if a step was taken since
     std::optional<double> differs_from_;
+    std::string difference_{};  ///< since then
     std::vector<std::chrono::nanoseconds> updates_;
     std::vector<std::chrono::nanoseconds> world_steps_;
     std::vector<std::chrono::nanoseconds> pictures_;
@@ -184,6 +187,7 @@ private:
     std::int64_t step_ = 0;     ///< the last that was played
     std::int64_t longest_ = 1;  ///< the recorded steps that a step of the slowest run takes
     bool certain_ = true;
+    bool has_events_at_steps_ = false;     ///< of the recorded setting
     double certain_until_ = 0;             ///< s
     double pixel_until_ = 0;               ///< s
     std::optional<double> small_until_{};  ///< s, the time until which the uncertainty was small

@@ -42,7 +42,8 @@ World::World(const World& other)
       bodies_(std::make_unique<Bodies>(*other.bodies_)),
       rows_(other.rows_),
       impacts_(other.impacts_),
-      random_(other.random_) {
+      random_(other.random_),
+      make_start_(other.make_start_) {
     require(other.visits_ == 0, "a world is not copied inside its own each");
     for (const TaggedPool& entry : other.pools_) pools_.push_back({entry.tag, entry.pool->clone()});
     for (const TaggedTimers& entry : other.timers_)
@@ -74,6 +75,7 @@ World& World::operator=(World&& other) {
     impacts_ = std::move(other.impacts_);
     timers_ = std::move(other.timers_);
     random_ = other.random_;
+    make_start_ = std::move(other.make_start_);
     return *this;
 }
 
@@ -338,13 +340,22 @@ Energy World::energy() const { return bodies_->energy(); }
 
 void World::step(std::int64_t count) {
     const Steps steps = next_steps(count);
-    if (const auto at = try_step(count))
-        fail_diverged(*bodies_, *at, *settings_.stepping.method, steps, name_of_row());
+    if (const auto at = try_step(count)) fail_at(*at, steps);
+}
+
+void World::fail_at(const Divergence& at, const Steps& steps) const {
+    fail_diverged(*bodies_, at, *settings_.stepping.method, steps, name_of_row(),
+                  start_bodies().get());
+}
+
+std::unique_ptr<const Bodies> World::start_bodies() const {
+    return make_start_ ? std::move(make_start_(settings_).bodies_) : nullptr;
 }
 
 void World::require_finite(const Energy& energy) const {
+    if (std::isfinite(energy.total())) return;
     oiler::require_finite(energy, *bodies_, *settings_.stepping.method, next_steps(1),
-                          name_of_row());
+                          name_of_row(), start_bodies().get());
 }
 
 std::optional<Divergence> World::try_step(std::int64_t count) {
@@ -367,8 +378,7 @@ void World::require_drawable() const {
     constexpr double most = std::numeric_limits<float>::max();
     for (std::size_t row = 0; row < body_count(); ++row)
         if (!(largest(position_of_row(row)) <= most))
-            fail_diverged(*bodies_, {tick_, row, 0, Divergence::Of::drawing},
-                          *settings_.stepping.method, next_steps(1), name_of_row());
+            fail_at({tick_, row, 0, Divergence::Of::drawing}, next_steps(1));
 }
 
 void World::require_applicable() const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -316,6 +317,11 @@ public:
     /// fewer.
     void set_threads(int threads);
 
+    /// Makes this world as it was at its start, with other settings.
+    using MakeStart = std::function<World(const Settings&)>;
+    /// From here on, the start names the cause of a divergence, if it has one: positions and speeds
+    /// of a run that has diverged are no longer those of the scene.
+    void set_start(MakeStart start) { make_start_ = std::move(start); }
     /// Steps all bodies `count` times. Results do not depend on the number of steps per call.
     /// Throws Error{diverged}.
     void step(std::int64_t count = 1);
@@ -427,6 +433,10 @@ private:
     void remove_row(std::uint32_t slot);
     [[nodiscard]] Steps next_steps(std::int64_t count) const;
     [[nodiscard]] NameOfRow name_of_row() const;
+    /// Throws Error{diverged}.
+    [[noreturn]] void fail_at(const Divergence& at, const Steps& steps) const;
+    /// The bodies at the start of the run; null if nothing makes them.
+    [[nodiscard]] std::unique_ptr<const Bodies> start_bodies() const;
     [[nodiscard]] std::vector<Risk> risks(std::int64_t steps) const;
     [[nodiscard]] std::vector<std::string> describe(std::span<const Risk> risks,
                                                     std::size_t most) const;
@@ -442,6 +452,7 @@ private:
     std::vector<Impact> impacts_;
     std::vector<TaggedTimers> timers_;
     Random random_;
+    MakeStart make_start_{};
     int visits_ = 0;
     std::optional<double> counted_from_;  ///< by `schedule` inside `due`, s
 };
