@@ -76,12 +76,8 @@ void draw(Picture& picture, const Shown& shown, float left) {
             {.key = key, .points = std::move(points), .width = width, .colour = ink});
     };
     const auto text = [&](Point at, const std::string& words, float size, Colour ink) {
-        picture.labels.push_back({.at = {at.x + left, at.y},
-                                  .text = words,
-                                  .size = size,
-                                  .colour = readable(ink),
-                                  .align = Align::centre,
-                                  .space = Space::world});
+        add_text(picture, {at.x + left, at.y}, words, size, ink, Align::centre).space =
+            Space::world;
     };
     const bool misses = shown.is_over && shown.apex < ledge;
     const Colour colour = misses ? palette::vermilion : palette::blue;
@@ -159,8 +155,7 @@ struct Jump {
     }
 
     std::vector<Reading> readings() const {
-        return {{"right apex", double{std::ranges::max(jumper.path, {}, &Point::y).y},
-                 "m"}};
+        return {{"right apex", double{std::ranges::max(jumper.path, {}, &Point::y).y}, "m"}};
     }
 
     Picture picture() const {
@@ -199,22 +194,16 @@ struct Jump {
     }
 
     void draw_slider(Picture& picture) const {
-        const auto text = [&](Point at, std::string words, Colour colour, Align align) {
-            picture.labels.push_back({.at = at,
-                                      .text = std::move(words),
-                                      .size = 9,
-                                      .colour = readable(colour),
-                                      .align = align});
-        };
         picture.polylines.push_back({.points = {slider_low, slider_high},
                                      .width = 3,
                                      .colour = palette::pale,
                                      .space = Space::canvas});
         for (std::size_t i = 0; i < rates.size(); ++i)
-            text({place_of(i), 20}, fmt::format("{}", rates[i]),
-                 i == dragged ? palette::ink : palette::grey, Align::centre);
-        text({620, 20}, "Hz", palette::grey, Align::left);
-        text({320, 5}, "Drag the rate of the left jump, or press ← →", palette::ink, Align::centre);
+            add_text(picture, {place_of(i), 20}, fmt::format("{}", rates[i]), 9,
+                     i == dragged ? palette::ink : palette::grey, Align::centre);
+        add_text(picture, {620, 20}, "Hz", 9, palette::grey);
+        add_text(picture, {320, 5}, "Drag the rate of the left jump, or press ← →", 9, palette::ink,
+                 Align::centre);
         picture.discs.push_back({.centre = {place_of(dragged), slider_low.y},
                                  .radius = 8,
                                  .colour = palette::ink,
