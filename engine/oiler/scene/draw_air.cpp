@@ -68,8 +68,12 @@ private:
                 std::ceil((centre + half - shift) / spacing_)};
     }
 
+    /// Draws an arrow, but none across the texts of a scene.
     void add(double column, double row) {
         const Point at = point_of(shift_ + spacing_ * Vec3{column, row});
+        constexpr float foot_low = 0, foot_high = 22, head_low = 316, head_high = 356;
+        const float up = picture_.camera.to_canvas(at).y;
+        if ((up > foot_low && up < foot_high) || (up > head_low && up < head_high)) return;
         picture_.polygons.push_back(
             {.key = key_of_arrow(static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)),
              .points = arrow({at.x - half_.x, at.y - half_.y}, {at.x + half_.x, at.y + half_.y},
