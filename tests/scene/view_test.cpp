@@ -224,5 +224,19 @@ TEST(View, ThereAreNoArrowsWhereWindsDifferOrAreLeftOut) {
         Played(scene_of(wind_on("a") + "[view]\nwind = false\n")).picture().polygons.empty());
 }
 
+// The title and the setting are from 316 to 356 units of the canvas up, the hint of a scene
+// below 22.
+TEST(View, NoArrowCrossesTheTexts) {
+    const Picture picture = Played(scene_of(wind_on("a"))).picture();
+    ASSERT_GT(picture.polygons.size(), 10U);
+    for (const Polygon& arrow : picture.polygons)
+        for (const Point& corner : arrow.points)
+            for (const Label& label : picture.labels) {
+                const float up = picture.camera.to_canvas(corner).y;
+                EXPECT_FALSE(up > label.at.y - 2 && up < label.at.y + 0.7F * label.size)
+                    << label.text;
+            }
+}
+
 }  // namespace
 }  // namespace oiler::test
