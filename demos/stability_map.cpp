@@ -363,7 +363,7 @@ struct StabilityMap {
                      fmt::format("explodes: × {:.3g} per step", radius_of(step)), 14,
                      palette::vermilion);
         add_text(picture, {352, 147},
-                 fmt::format("ω·dt {:.2f} at {} Hz, ζ {:.2f}: truly, {:.0f} % left", omega_dt(),
+                 fmt::format("ω·dt = {:.2f} at {} Hz, ζ = {:.2f}: truly, {:.0f} % left", omega_dt(),
                              rate().steps, zeta(), 100 * true_per_period(zeta())),
                  9, palette::ink);
         add_text(picture, {352, 133}, limit_text(), 9, palette::ink);
