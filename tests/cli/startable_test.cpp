@@ -37,7 +37,7 @@ pid_t start_menu(int output) {
     Interrupt::handle_signals("menu");
     dup2(output, STDOUT_FILENO);
     close(output);
-    _exit(run_and_wait(shell("printf x; exec sleep 1000")));
+    _exit(run_and_wait(shell("printf x; exec sleep 60")));
 }
 
 class EndOfMenu : public testing::TestWithParam<int> {};
