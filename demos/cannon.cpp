@@ -12,7 +12,7 @@ using namespace oiler;
 namespace {
 
 constexpr Axis aim{
-    "aim", {Key::down, Key::s, Pad::down}, {Key::up, Key::w, Pad::up}, Stick::left_y};
+    "aim", {Key::down, Key::s, Pad::down}, {Key::up, Key::w, Pad::up}, Stick::left_y, ByMouse::yes};
 constexpr Action fire{"fire", Key::space, Mouse::left, Pad::south};
 constexpr Action menu{"menu", Key::escape, Pad::start};
 constexpr Action restart{"restart", Key::r, Pad::back};

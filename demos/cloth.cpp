@@ -270,14 +270,6 @@ struct Cloth {
     }
 
     void draw_setting(Picture& picture) const {
-        const auto text = [&](Point at, float size, Colour colour, std::string words,
-                              Align align = Align::left) {
-            picture.labels.push_back({.at = at,
-                                      .text = std::move(words),
-                                      .size = size,
-                                      .colour = readable(colour),
-                                      .align = align});
-        };
         const auto& [method, rate, precision, damping_in] = world.settings().stepping;
         const Needs& needs = needs_of(*method, damping_in.value_or(method->damping));
         const auto hz = static_cast<double>(rate.steps);
@@ -292,13 +284,16 @@ struct Cloth {
                               hz < needs.hanging    ? "it tears itself to pieces"
                               : hz < needs.crumpled ? "do not crumple it"
                                                     : "it holds");
-        text({14, 330}, 15, colour, fmt::format("{} at {} Hz", method->name, rate.steps));
-        text({14, 317}, 9, palette::ink, words);
-        text({626, 330}, 9, palette::grey, "F1: other rates and methods", Align::right);
-        text({626, 317}, 9, palette::grey, fmt::format("{} threads", threads.size()), Align::right);
-        text({320, 10}, 10, palette::ink,
-             "Left button: pull   Right button: cut   Space: pin or unpin   R: new cloth",
-             Align::centre);
+        add_text(picture, {14, 337}, fmt::format("{} at {} Hz", method->name, rate.steps), 15,
+                 colour);
+        add_text(picture, {14, 320}, words, 9, palette::ink);
+        add_text(picture, {626, 337}, "F1: other rates and methods", 9, palette::grey,
+                 Align::right);
+        add_text(picture, {626, 320}, fmt::format("{} threads", threads.size()), 9, palette::grey,
+                 Align::right);
+        add_text(picture, {320, 10},
+                 "Left button: pull   Right button: cut   Space: pin or unpin   R: new cloth", 10,
+                 palette::ink, Align::centre);
     }
 };
 

@@ -102,7 +102,7 @@ std::string describe(const Run& run) {
     return fmt::format("= keeps its energy within {:.2g} %", 100 * run.wobble);
 }
 
-constexpr Box slider{{196, 28}, {612, 28}};
+constexpr Box slider{{206, 28}, {612, 28}};
 float place_of(std::size_t rate) {
     return std::lerp(slider.low.x, slider.high.x,
                      static_cast<float>(rate) / static_cast<float>(rates.size() - 1));
@@ -162,22 +162,13 @@ struct IntegratorRace {
             draw_lane(picture, i, lanes[i], runs[i].at(time()), truth, describe(runs[i]));
         draw_lane(picture, lanes.size(), {"exact", palette::ink}, truth, truth,
                   "= keeps its energy");
-        text(picture, {14, 338},
-             "One undamped spring, one oscillation per second. Rings show the exact motion.", 9,
-             palette::grey);
+        add_text(picture, {14, 338},
+                 "One undamped spring, one oscillation per second. Rings show the exact motion.", 9,
+                 palette::grey);
         draw_portrait(picture);
         draw_energies(picture);
         draw_slider(picture);
         return picture;
-    }
-
-    static void text(Picture& picture, Point at, std::string words, float size, Colour colour,
-                     Align align = Align::left) {
-        picture.labels.push_back({.at = at,
-                                  .text = std::move(words),
-                                  .size = size,
-                                  .colour = readable(colour),
-                                  .align = align});
     }
 
     void draw_lane(Picture& picture, std::size_t index, const Lane& lane, const Sample& now,
@@ -185,8 +176,8 @@ struct IntegratorRace {
         constexpr float left = 14, right = 366, metre = 60, reach = 2.1F, radius = 7;
         const float y = 322 - 38.5F * static_cast<float>(index);
         const float strip = y - 14, centre = (left + right) / 2;
-        text(picture, {left, y}, std::string(lane.method), 10, lane.colour);
-        text(picture, {right, y}, result, 10, palette::ink, Align::right);
+        add_text(picture, {left, y}, std::string(lane.method), 10, lane.colour);
+        add_text(picture, {right, y}, result, 10, palette::ink, Align::right);
         const auto place = [&](double x) {
             return Point{centre + metre * std::clamp(static_cast<float>(x), -reach, reach), strip};
         };
@@ -219,14 +210,14 @@ struct IntegratorRace {
         const double distance = std::abs(now.x);
         const std::string words = distance < 1e4 ? fmt::format("{:.1f} m", distance)
                                                  : fmt::format("{:.0f} km", distance / 1000);
-        text(picture, {place(now.x).x + 11, strip - 3}, now.x > 0 ? words + " ▶" : "◀ " + words, 9,
-             palette::ink);
+        add_text(picture, {place(now.x).x + 11, strip - 3}, now.x > 0 ? words + " ▶" : "◀ " + words,
+                 9, palette::ink);
     }
 
     void draw_portrait(Picture& picture) const {
         Plot plot{.box = {{456, 190}, {584, 318}},
                   .x_label = "position, m",
-                  .y_label = "velocity, m/s, over the last second",
+                  .y_label = "velocity, m/s: the last second",
                   .x = {-2, 2},
                   .y = {-2 * omega, 2 * omega},
                   .x_ticks = 4};
@@ -275,16 +266,16 @@ struct IntegratorRace {
     }
 
     void draw_slider(Picture& picture) const {
-        text(picture, {14, 22}, fmt::format("{} Hz", rates[rate]), 22, palette::ink);
-        text(picture, {112, 30}, "Drag the slider,", 9, palette::grey);
-        text(picture, {112, 19}, "or press ← →", 9, palette::grey);
+        add_text(picture, {14, 22}, fmt::format("{} Hz", rates[rate]), 22, palette::ink);
+        add_text(picture, {112, 36}, "Drag the slider,", 9, palette::grey);
+        add_text(picture, {112, 22}, "or press ← →", 9, palette::grey);
         picture.polylines.push_back({.points = {slider.low, slider.high},
                                      .width = 3,
                                      .colour = palette::pale,
                                      .space = Space::canvas});
         for (std::size_t i = 0; i < rates.size(); ++i)
-            text(picture, {place_of(i), 10}, fmt::format("{}", rates[i]), 9,
-                 i == rate ? palette::ink : palette::grey, Align::centre);
+            add_text(picture, {place_of(i), 10}, fmt::format("{}", rates[i]), 9,
+                     i == rate ? palette::ink : palette::grey, Align::centre);
         picture.discs.push_back({.centre = {place_of(rate), slider.low.y},
                                  .radius = 8,
                                  .colour = palette::ink,

@@ -87,12 +87,8 @@ void draw(Picture& picture, const Shown& shown, float left) {
             {.key = key, .points = std::move(points), .width = width, .colour = ink});
     };
     const auto text = [&](Point at, const std::string& words, float size, Colour ink) {
-        picture.labels.push_back({.at = {at.x + left, at.y},
-                                  .text = words,
-                                  .size = size,
-                                  .colour = readable(ink),
-                                  .align = Align::centre,
-                                  .space = Space::world});
+        add_text(picture, {at.x + left, at.y}, words, size, ink, Align::centre).space =
+            Space::world;
     };
     constexpr double half = 1e-9;  // rounds up
     const bool misses = shown.whole.apex < ledge;
@@ -216,13 +212,6 @@ struct Jump {
     }
 
     void draw_slider(Picture& picture) const {
-        const auto text = [&](Point at, std::string words, Colour colour, Align align) {
-            picture.labels.push_back({.at = at,
-                                      .text = std::move(words),
-                                      .size = 9,
-                                      .colour = readable(colour),
-                                      .align = align});
-        };
         const auto place_of = [](std::int64_t at) {
             return std::lerp(slider_low.x, slider_high.x, share_of(at));
         };
@@ -231,11 +220,11 @@ struct Jump {
                                      .colour = palette::pale,
                                      .space = Space::canvas});
         for (const std::int64_t at : rates)
-            text({place_of(at), 20}, fmt::format("{}", at),
-                 at == rate() ? palette::ink : palette::grey, Align::centre);
-        text({620, 20}, "Hz", palette::grey, Align::left);
-        text({320, 5}, "Drag the rate of the right ball, or press ← →", palette::ink,
-             Align::centre);
+            add_text(picture, {place_of(at), 20}, fmt::format("{}", at), 9,
+                     at == rate() ? palette::ink : palette::grey, Align::centre);
+        add_text(picture, {620, 20}, "Hz", 9, palette::grey);
+        add_text(picture, {320, 5}, "Drag the rate of the right ball, or press ← →", 9,
+                 palette::ink, Align::centre);
         picture.discs.push_back({.centre = {place_of(rate()), slider_low.y},
                                  .radius = 8,
                                  .colour = palette::ink,

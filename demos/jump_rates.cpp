@@ -192,12 +192,11 @@ struct JumpRates {
                       after + ahead * (lane.player.before - after));
         }
         draw_lane(picture, slow.size(), world, player, world.position(player.body));
-        constexpr float heading = 338;
-        text(picture, {chart_x(ledge) - 2, heading}, "ledge 2.00 m", 8, palette::ink, Align::right);
-        text(picture, {chart_x(true_apex) + 2, heading}, "true apex 2.025 m", 8, palette::green);
-        text(picture, {14, 10}, "← → walk, Space jumps: all five obey", 10, palette::ink);
-        text(picture, {626, 10}, std::string(world.settings().stepping.method->name), 10,
-             palette::grey, Align::right);
+        add_text(picture, {chart_x(ledge) - 2, 332}, "ledge 2.00 m", 9, palette::ink, Align::right);
+        add_text(picture, {626, 346}, "true apex 2.025 m", 9, palette::green, Align::right);
+        add_text(picture, {14, 10}, "← → walk, Space jumps: all five obey", 10, palette::ink);
+        add_text(picture, {626, 10}, std::string(world.settings().stepping.method->name), 10,
+                 palette::grey, Align::right);
         return picture;
     }
 
@@ -211,15 +210,7 @@ struct JumpRates {
     }
     static float chart_x(double height) {
         const double share = (height - chart_low) / (chart_high - chart_low);
-        return static_cast<float>(478 + 148 * std::clamp(share, 0.0, 1.0));
-    }
-    static void text(Picture& picture, Point at, std::string words, float size, Colour colour,
-                     Align align = Align::left) {
-        picture.labels.push_back({.at = at,
-                                  .text = std::move(words),
-                                  .size = size,
-                                  .colour = readable(colour),
-                                  .align = align});
+        return static_cast<float>(450 + 176 * std::clamp(share, 0.0, 1.0));
     }
     static void line(Picture& picture, std::vector<Point> points, float width, Colour colour) {
         picture.polylines.push_back({.points = std::move(points),
@@ -242,10 +233,10 @@ struct JumpRates {
         const Colour colour = misses ? palette::vermilion : palette::blue;
         block(picture, at(0, -0.2), at(track, 0), palette::grey);
         block(picture, at(ledge_left, ledge - 0.25), at(ledge_right, ledge), palette::ink);
-        text(picture, at(ledge_right + 0.3, ledge - 0.3), "2.00 m", 8, palette::grey);
-        text(picture, at(-2.6, 0.9), fmt::format("{}", of.settings().stepping.rate.steps), 18,
-             palette::ink);
-        text(picture, at(-2.6, 0.2), "Hz", 10, palette::ink);
+        add_text(picture, at(ledge_right + 0.3, ledge - 0.3), "2.00 m", 8, palette::grey);
+        add_text(picture, at(-2.6, 1), fmt::format("{}", of.settings().stepping.rate.steps), 18,
+                 palette::ink);
+        add_text(picture, at(-2.6, 0.2), "Hz", 10, palette::ink);
         std::vector<Point> path;
         for (const Vec3& feet : who.path) path.push_back(at(feet[0], feet[1]));
         if (of.settings().stepping.rate.steps <= 60)
@@ -276,12 +267,13 @@ struct JumpRates {
         constexpr double half = 1e-9;                                  // rounds up
         const double off = 100 * (std::abs(apex - true_apex) + half);  // cm
         if (who.rises()) return;
-        text(picture, {chart_x(chart_low), low}, fmt::format("{:.3f} m", apex + half), 10,
-             palette::ink);
-        text(picture, {chart_x(chart_high), low},
-             off < 0.05 ? "exact"
-                        : fmt::format("{:.1f} cm too {}", off, apex < true_apex ? "low" : "high"),
-             10, colour, Align::right);
+        add_text(picture, {chart_x(chart_low), low}, fmt::format("{:.3f} m", apex + half), 10,
+                 palette::ink);
+        add_text(picture, {chart_x(chart_high), low},
+                 off < 0.05
+                     ? "exact"
+                     : fmt::format("{:.1f} cm too {}", off, apex < true_apex ? "low" : "high"),
+                 10, colour, Align::right);
     }
 
     void draw_character(Picture& picture, ElementKey key, Point feet, Colour colour) const {

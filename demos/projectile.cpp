@@ -12,6 +12,7 @@
 #include "oiler/core/length_text.hpp"
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
+#include "oiler/picture/text.hpp"
 #include "oiler/plot/plot.hpp"
 
 using namespace oiler;
@@ -171,34 +172,28 @@ struct Projectile {
     }
 
     void draw_labels(Picture& picture) const {
-        picture.labels.push_back(
-            {.at = {16, 340},
-             .text =
+        add_text(picture, {16, 340},
                  fmt::format("{}   t = {:.2f} s", caption(world.settings().stepping), world.time()),
-             .size = 13,
-             .colour = palette::ink});
+                 13, palette::ink);
         float y = 296;
         for (const Kind& kind : kinds) {
             const double error = largest_error[static_cast<std::size_t>(kind.drag)];
-            picture.discs.push_back({.centre = {446, y + 3.5F},
+            picture.discs.push_back({.centre = {400, y + 3.5F},
                                      .radius = 4,
                                      .colour = kind.colour,
                                      .space = Space::canvas});
-            picture.labels.push_back(
-                {.at = {456, y},
-                 .text = kind.drag == Drag::quadratic
-                             ? std::string(kind.name)
-                             : fmt::format("{}: error at most {}", kind.name, length_text(error)),
-                 .size = 10,
-                 .colour = palette::ink});
+            add_text(picture, {410, y},
+                     kind.drag == Drag::quadratic
+                         ? std::string(kind.name)
+                         : fmt::format("{}: error at most {}", kind.name, length_text(error)),
+                     10, palette::ink);
             y -= 14;
         }
-        picture.polylines.push_back({.points = {{440, y + 3.5F}, {452, y + 3.5F}},
+        picture.polylines.push_back({.points = {{394, y + 3.5F}, {406, y + 3.5F}},
                                      .width = 0.75F,
                                      .colour = palette::grey,
                                      .space = Space::canvas});
-        picture.labels.push_back(
-            {.at = {456, y}, .text = "exact", .size = 10, .colour = palette::ink});
+        add_text(picture, {410, y}, "exact", 10, palette::ink);
     }
 };
 

@@ -12,7 +12,7 @@
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
-#include "oiler/picture/theme.hpp"
+#include "oiler/picture/text.hpp"
 #include "oiler/plot/plot.hpp"
 
 using namespace oiler;
@@ -165,23 +165,15 @@ struct SpringDamper {
 
     void draw_labels(Picture& picture) const {
         const Sample now = sample();
-        picture.labels.push_back({.at = {16, 340},
-                                  .text = caption(world.settings().stepping),
-                                  .size = 13,
-                                  .colour = palette::ink});
-        picture.labels.push_back({.at = {624, 340},
-                                  .text = "k = 15 N/m, b = 0.1 N·s/m, m = 1 kg",
-                                  .size = 11,
-                                  .colour = readable(palette::grey),
-                                  .align = Align::right});
-        picture.labels.push_back(
-            {.at = {16, 324},
-             .text = fmt::format(
-                 "t = {:.2f} s   x = {}   exact {}   largest error {}", now.t,
-                 metres(now.simulated), metres(now.exact),
-                 length_text(std::max(largest_error, std::abs(now.simulated - now.exact)))),
-             .size = 11,
-             .colour = palette::ink});
+        add_text(picture, {16, 340}, caption(world.settings().stepping), 13, palette::ink);
+        add_text(picture, {624, 340}, "k = 15 N/m, b = 0.1 N·s/m, m = 1 kg", 11, palette::grey,
+                 Align::right);
+        add_text(
+            picture, {16, 324},
+            fmt::format("t = {:.2f} s   x = {}   exact {}   largest error {}", now.t,
+                        metres(now.simulated), metres(now.exact),
+                        length_text(std::max(largest_error, std::abs(now.simulated - now.exact)))),
+            11, palette::ink);
     }
 };
 

@@ -255,21 +255,13 @@ struct StabilityMap {
         draw_spring(picture);
         draw_verdict(picture);
         draw_list(picture);
-        text(
-            picture, {320, 8}, 9,
+        add_text(
+            picture, {320, 8},
             "Drag the crosshair, or press the arrows. Click a method, or press Space for the next.",
-            palette::grey, Align::centre);
+            9, palette::grey, Align::centre);
         return picture;
     }
 
-    static void text(Picture& picture, Point at, float size, std::string words,
-                     Colour colour = palette::ink, Align align = Align::left) {
-        picture.labels.push_back({.at = at,
-                                  .text = std::move(words),
-                                  .size = size,
-                                  .colour = readable(colour),
-                                  .align = align});
-    }
     static void line(Picture& picture, Point from, Point to, float width,
                      Colour colour = palette::ink) {
         picture.polylines.push_back(
@@ -353,7 +345,7 @@ struct StabilityMap {
         disc(picture, mass, 10, colour);
         disc(picture, dot, 3.5F, colour);
         if (is_lost)
-            text(picture, {hook.x, 160}, 9, fmt::format("{:.2g} m", at), colour, Align::centre);
+            add_text(picture, {hook.x, 163}, fmt::format("{:.2g} m", at), 9, colour, Align::centre);
     }
 
     void draw_verdict(Picture& picture) const {
@@ -362,17 +354,19 @@ struct StabilityMap {
             step_matrices(*choice().method, choice().damping, std::span(&spring, 1)).front();
         const double left = per_period(radius_of(step), omega_dt());
         if (is_stable(step))
-            text(picture, {352, 332}, 14,
-                 fmt::format("{}: {:.0f} % left after a period", left < little ? "rests" : "rings",
-                             100 * left),
-                 palette::blue);
+            add_text(picture, {352, 334},
+                     fmt::format("{}: {:.0f} % left after a period",
+                                 left < little ? "rests" : "rings", 100 * left),
+                     14, palette::blue);
         else
-            text(picture, {352, 332}, 14,
-                 fmt::format("explodes: × {:.3g} per step", radius_of(step)), palette::vermilion);
-        text(picture, {352, 146}, 9,
-             fmt::format("ω·dt = {:.2f} at {} Hz, ζ = {:.2f}: truly, {:.0f} % is left.", omega_dt(),
-                         rate().steps, zeta(), 100 * true_per_period(zeta())));
-        text(picture, {352, 133}, 9, limit_text());
+            add_text(picture, {352, 334},
+                     fmt::format("explodes: × {:.3g} per step", radius_of(step)), 14,
+                     palette::vermilion);
+        add_text(picture, {352, 147},
+                 fmt::format("ω·dt = {:.2f} at {} Hz, ζ = {:.2f}: truly, {:.0f} % left", omega_dt(),
+                             rate().steps, zeta(), 100 * true_per_period(zeta())),
+                 9, palette::ink);
+        add_text(picture, {352, 133}, limit_text(), 9, palette::ink);
     }
     /// What the point means for a game at the rate of the world.
     std::string limit_text() const {
@@ -392,7 +386,7 @@ struct StabilityMap {
                 picture.polygons.push_back({.points = rectangle({486, at.y}, {280, list_line}),
                                             .colour = palette::pale,
                                             .space = Space::canvas});
-            text(picture, {at.x, at.y - 3}, 9, describe(list[i]));
+            add_text(picture, {at.x, at.y - 3}, describe(list[i]), 9, palette::ink);
         }
     }
 };

@@ -6,6 +6,7 @@
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/text.hpp"
 #include "oiler/picture/theme.hpp"
 #include "oiler/world/collisions.hpp"
 #include "oiler/world/neighbours.hpp"

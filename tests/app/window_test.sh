@@ -79,15 +79,16 @@ wait $game
 status=$?
 [ $status -eq 0 ] || fail "Escape leaves with exit code $status"
 
-# A window that the user has resized opens with that size next time, unless --size is given.
+# A window that the user has resized opens with that size next time, unless --size is given. The first
+# one, 1280x720, is cut to the display.
 export XDG_STATE_HOME="$folder/states"
 is_of_size() { xdotool search --name "$title" getwindowgeometry 2>/dev/null | grep -q "Geometry: $1"; }
-for size in 1280x720 500x300; do
+for size in 800x600 500x300; do
     "$program" --quiet 2>"$folder/err" &
     game=$!
     until_true is_of_size $size || fail "the window is not of $size: $(cat "$folder/err")"
     window_focused
-    [ -e "$folder/states" ] || [ $size = 1280x720 ] || fail "the size is not kept"
+    [ -e "$folder/states" ] || [ $size = 800x600 ] || fail "the size is not kept"
     xdotool search --name "$title" windowsize 500 300
     until_true is_of_size 500x300 || fail "the window cannot be resized"
     xdotool key Escape
@@ -99,6 +100,16 @@ until_true is_of_size 640x360 || fail "--size does not win over the size of last
 until_true window_focused
 xdotool key Escape
 wait $game
+
+# A size from a larger display is cut to this one, and kept for the larger one.
+echo 3000x2000 | tee "$folder"/states/oiler/*.size >/dev/null
+"$program" --quiet 2>"$folder/err" &
+game=$!
+until_true is_of_size 800x600 || fail "a kept size is larger than the display"
+window_focused
+xdotool key Escape
+wait $game
+[ "$(cat "$folder"/states/oiler/*.size)" = 3000x2000 ] || fail "a display that is smaller changes the kept size"
 
 # steps_in_frames N: number of steps of a run of N frames, 0.1 s apart, at 1000 Hz. The first frame
 # starts the clock and takes no step; a late frame takes at most 250.

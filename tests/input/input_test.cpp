@@ -426,5 +426,12 @@ TEST(Buttons, AreNumberedAsInTheUsbTable) {
     EXPECT_EQ(Button(Key::right_gui).id(), 231);
 }
 
+TEST(Sticks, AreDescribedInWords) {
+    EXPECT_EQ(describe(Stick::left_x), "left stick left/right");
+    EXPECT_EQ(describe(Stick::left_y), "left stick up/down");
+    EXPECT_EQ(describe(Stick::right_y), "right stick up/down");
+    EXPECT_EQ(describe(Stick::right_trigger), "right trigger");
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -223,6 +223,14 @@ TEST(Inspector, LeavesTheMouseBesideItToTheGame) {
     EXPECT_FALSE(inspector.has_mouse());
 }
 
+// At least 11/14 pixels a unit: 340 of them are 267 pixels.
+TEST(Inspector, LeavesMostOfASmallWindowToTheGame) {
+    EXPECT_EQ(Inspector::view({1280, 720}).width, 1280 - 390);
+    EXPECT_EQ(Inspector::view({640, 360}).width, 640 - 268) << "0.42 of 640";
+    EXPECT_EQ(Inspector::view({480, 360}).width, 480 - 267);
+    EXPECT_EQ(Inspector::view({300, 360}).width, 100) << "a third";
+}
+
 /// Where clicks apply another setting, in pixels of a frame of that size.
 std::vector<Point> places_of_apply(const Inspected& run, Size size) {
     std::vector<Point> places;

@@ -10,9 +10,10 @@ namespace oiler::test {
 namespace {
 
 constexpr Action fire{"fire", Key::q, Mouse::left};
-constexpr Axis aim{"aim", Key::left, Key::right, Stick::left_x};
+constexpr Axis aim{"aim", Key::left, Key::right, Stick::left_x, ByMouse::yes};
+constexpr Axis brake{"brake", Buttons{}, Buttons{}, Stick::right_trigger};
 constexpr Action nothing{"nothing"};
-constexpr Control controls[] = {fire, aim, nothing};
+constexpr Control controls[] = {fire, aim, brake, nothing};
 
 std::vector<HelpRow> loop_keys() {
     return {{"F1", "inspector"},    {"F2", "close this help"}, {"F3", "pause, resume"},
@@ -38,8 +39,8 @@ TEST(Help, ListsControlsAndKeysOverThePicture) {
     for (std::size_t i = 1; i < picture.labels.size(); ++i)
         EXPECT_EQ(picture.labels[i].layer, picture.polygons[0].layer);
     for (const char* const text :
-         {"Cannon", "fire", "A, Mouse left", "aim", "Left and Right, stick left_x", "nothing",
-          "no button", "F4", "go back", "Escape"})
+         {"Cannon", "fire", "A, Mouse left", "aim", "Left and Right, left stick left/right, mouse",
+          "brake", "right trigger", "nothing", "no button", "F4", "go back", "Escape"})
         EXPECT_TRUE(shows(picture, text)) << text;
 }
 

@@ -106,7 +106,7 @@ TEST(Overlays, HaveTheContrastOfTheirGame) {
         const OverlayArea area({1280, 720});
         add_verdict(overlay, area, of_letters(60));
         add_status(overlay, area, "paused");
-        add_notice(overlay, area, "it diverged", "F9 restarts");
+        add_notice(overlay, area, {"rk4 at 60 Hz", "it diverged", "F9 restarts"});
         add_help(overlay, area, "Title", {}, [](Button button) { return name_of(button); },
                  {{"F1", "inspector"}});
         const Colour paper = theme_of(background).paper;
@@ -118,12 +118,28 @@ TEST(Overlays, HaveTheContrastOfTheirGame) {
 
 TEST(Notice, FitsASmallWindow) {
     Picture overlay;
-    add_notice(overlay, OverlayArea({400, 300}), of_letters(200).text, "F9 restarts, Escape quits");
+    add_notice(overlay, OverlayArea({400, 300}),
+               {"semi_implicit_euler at 60 Hz, double", of_letters(200).text, "F9 restarts"});
     ASSERT_GT(overlay.labels.size(), 2U);
     for (const Label& label : overlay.labels) {
         EXPECT_LE(width_of(label), 640) << label.text;
         EXPECT_GE(label.size * 0.625F, 10.99F);
     }
+}
+
+// 1280 x 720: a unit is two pixels.
+TEST(Notice, NamesTheSettingInTheLargestLetters) {
+    Picture overlay;
+    add_notice(overlay, OverlayArea({1280, 720}), {"rk4 at 60 Hz", "it diverged", "F9 restarts"});
+    ASSERT_EQ(overlay.labels.size(), 3U);
+    EXPECT_EQ(overlay.labels[0].text, "rk4 at 60 Hz");
+    EXPECT_GE(2 * overlay.labels[0].size, 22);
+    for (const Label& label : overlay.labels) EXPECT_GE(2 * label.size, 18) << label.text;
+    for (std::size_t i = 1; i < 3; ++i)
+        EXPECT_LE(overlay.labels[i].at.y + overlay.labels[i].size,
+                  overlay.labels[i - 1].at.y + 0.1F);
+    add_notice(overlay, OverlayArea({1280, 720}), {"", "no such file", "F9 closes this"});
+    EXPECT_EQ(overlay.labels.size(), 5U);
 }
 
 TEST(Status, FitsASmallWindow) {
@@ -132,48 +148,6 @@ TEST(Status, FitsASmallWindow) {
     EXPECT_LE(width_of(overlay.labels.at(0)), 640);
     EXPECT_GE(overlay.labels.at(0).at.y, -60);
     EXPECT_LT(overlay.labels.at(0).at.y, 0) << "at the bottom of the window, not of the canvas";
-}
-
-TEST(Labels, OfAGameHave9PixelsAtLeast) {
-    Picture picture;
-    picture.labels = {{.size = 8}, {.size = 20}, {.size = 0.5F, .size_in = Space::world}};
-    Picture large = picture;
-    keep_legible(picture, OverlayArea({400, 300}));
-    EXPECT_NEAR(picture.labels[0].size * 0.625F, 9, rounding);
-    EXPECT_EQ(picture.labels[1].size, 20);
-    EXPECT_EQ(picture.labels[2].size, 0.5F) << "metres";
-    keep_legible(large, OverlayArea({1280, 720}));
-    EXPECT_EQ(large.labels[0].size, 8);
-    // 40 letters of 0.55 * 8 units from 440 on have 200 units to the edge, and need 176.
-    Picture wide{
-        .labels = {
-            {.at = {440, 0}, .text = std::string(40, 'x'), .size = 8},
-            {.at = {200, 0}, .text = std::string(40, 'x'), .size = 8, .align = Align::right}}};
-    keep_legible(wide, OverlayArea({400, 300}));
-    for (const Label& label : wide.labels) {
-        EXPECT_GT(label.size, 8);
-        EXPECT_LE(width_of(label), 200) << "the edge cuts it";
-    }
-    keep_legible(large, OverlayArea({64, 36}));
-    EXPECT_EQ(large.labels[0].size, 16) << "twice as large, or labels cover each other";
-}
-
-// A window of 800 by 225 pixels is 1280 by 360 units: 320 beside the canvas on each side. From 440
-// on, a label has 200 units of the canvas and those at the right: 320, or 640 in the left corner.
-TEST(Labels, HaveTheRoomOfTheirCorner) {
-    const auto legible = [](Space space, bool has_bars) {
-        Picture picture{
-            .labels = {{.at = {440, 0}, .text = std::string(119, 'x'), .size = 8, .space = space}},
-            .has_bars = has_bars};
-        keep_legible(picture, OverlayArea({800, 225}));
-        return picture.labels[0].size;
-    };
-    const float needed = 9 / 0.625F;  // 120 letters of 0.55 * 14.4 units are 950 units
-    EXPECT_EQ(legible(Space::canvas, false), 8);
-    EXPECT_EQ(legible(Space::upper_right, false), 8);
-    EXPECT_NEAR(legible(Space::upper_left, false), 840 / 0.55F / 120, rounding);
-    EXPECT_LT(legible(Space::upper_left, false), needed);
-    EXPECT_EQ(legible(Space::upper_left, true), 8) << "between bars it does not move";
 }
 
 /// A game without bodies.

@@ -78,7 +78,7 @@ TEST(Automatic, SelectsAnInstalledProvider) {
 
 void expect_no_window() {
     try {
-        static_cast<void>(open_window({64, 36}, "test"));
+        static_cast<void>(open_window({64, 36}, "test", Fit::none));
         EXPECT_TRUE(std::filesystem::exists("/dev/dri/card0")) << "an invisible window";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit(), Exit::no_display);

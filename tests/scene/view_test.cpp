@@ -224,5 +224,24 @@ TEST(View, ThereAreNoArrowsWhereWindsDifferOrAreLeftOut) {
         Played(scene_of(wind_on("a") + "[view]\nwind = false\n")).picture().polygons.empty());
 }
 
+// The title and the setting are from 316 to 356 units of the canvas up, the hint of a scene
+// below 22.
+TEST(View, NoArrowCrossesTheTexts) {
+    Played run(scene_of(wind_on("a", "[0.0, 1.0]")));
+    for (int i = 0; i < 40; ++i, run.step(1)) {
+        const Picture picture = run.picture();
+        ASSERT_GT(picture.polygons.size(), 10U);
+        for (const Polygon& arrow : picture.polygons)
+            for (const Label& label : picture.labels) {
+                const auto up = [&](const Point& corner) {
+                    return picture.camera.to_canvas(corner).y;
+                };
+                const auto [low, high] = std::ranges::minmax(arrow.points, {}, up);
+                EXPECT_FALSE(up(low) < label.at.y + 0.5F * label.size && up(high) > label.at.y)
+                    << label.text;
+            }
+    }
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "oiler/app/kept_size.hpp"
+#include "oiler/overlay/legible.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
@@ -55,7 +56,8 @@ GameWindow::GameWindow(GameRun& run)
     : run_(run),
       title_(run.about.title),
       controls_(controls_of(run.options, run.about)),
-      window_(open_window(first_size(run.options, run.about), title_)),
+      window_(open_window(first_size(run.options, run.about), title_,
+                          run.options.has_size ? Fit::none : Fit::display)),
       opened_size_(window_->size()),
       renderer_([this](const char* name) { return window_->procedure(name); }),
       play_(run),
@@ -182,12 +184,16 @@ Picture GameWindow::overlay(Colour background, const std::string& status) {
         add_help(overlay, area, title_, controls_, key_names(),
                  help_on_loop_keys(!uses_escape(controls_)));
     if (play_.divergence())
-        add_notice(overlay, area, play_.divergence()->what(),
-                   fmt::format("F1 changes rate and method, {}F9 restarts, Escape quits",
-                               play_.has_past() ? "F4 goes back, " : ""));
+        add_notice(overlay, area,
+                   {.heading = caption(run_.playback.world().settings().stepping),
+                    .text = play_.divergence()->what(),
+                    .remedy = fmt::format("F1 changes rate and method, {}F9 restarts, Escape quits",
+                                          play_.has_past() ? "F4 goes back, " : "")});
     else if (!play_.complaint().empty())
-        add_notice(overlay, area, play_.complaint(),
-                   "What was shown goes on. F9 restarts it and closes this.");
+        add_notice(overlay, area,
+                   {.heading = {},
+                    .text = play_.complaint(),
+                    .remedy = "What was shown goes on. F9 restarts it and closes this."});
     if (!parts.has_verdict && !parts.has_inspector && !panels_.help)
         add_status(overlay, area, status);
     return overlay;

@@ -7,6 +7,7 @@
 
 #include "oiler/certify/region.hpp"
 #include "oiler/picture/palette.hpp"
+#include "oiler/picture/text.hpp"
 #include "oiler/plot/plot.hpp"
 
 namespace oiler::certify {
@@ -103,11 +104,6 @@ void add_line(Picture& picture, Point from, Point to, Colour colour, float width
         {.points = {from, to}, .width = width, .colour = colour, .space = Space::canvas});
 }
 
-void add_text(Picture& picture, Point at, std::string text, float size, Align align) {
-    picture.labels.push_back(
-        {.at = at, .text = std::move(text), .size = size, .colour = palette::ink, .align = align});
-}
-
 /// Adds an image with a texel for each cell.
 void draw_cells(Picture& picture, const Panel& panel) {
     const auto& [plane, region, grid] = panel;
@@ -157,14 +153,16 @@ void draw_axes(Picture& picture, const Panel& panel, bool has_omegas, bool has_z
         add_line(picture, {x, low.y}, {x, low.y - 1.5F}, palette::ink, 0.5F);
         if (has_omegas)
             add_text(picture, {x, low.y - text_size - 1},
-                     fmt::format("{:g}", panel.grid.omega_dt * i / 3), text_size, Align::centre);
+                     fmt::format("{:g}", panel.grid.omega_dt * i / 3), text_size, palette::ink,
+                     Align::centre);
     }
     for (int i = 0; i <= 2; ++i) {
         const float y = low.y + (high.y - low.y) * static_cast<float>(i) / 2;
         add_line(picture, {low.x, y}, {low.x - 1.5F, y}, palette::ink, 0.5F);
         if (has_zetas)
             add_text(picture, {low.x - 3, y - 0.36F * text_size},
-                     fmt::format("{:g}", panel.grid.zeta * i / 2), text_size, Align::right);
+                     fmt::format("{:g}", panel.grid.zeta * i / 2), text_size, palette::ink,
+                     Align::right);
     }
 }
 
@@ -175,14 +173,14 @@ void draw_title(Picture& picture, const Panel& panel, const Layout& layout) {
     const float size = layout.title_size();
     const float fitting = (layout.cell.x - 8) / text_width(name, 1);
     add_text(picture, {corner.x, corner.y + 0.38F * size}, name, std::min(size, fitting),
-             Align::left);
+             palette::ink);
 }
 
 void draw_legend(Picture& picture, const Layout& layout, bool has_differences) {
     Point at{layout.legend.x, layout.legend.y - text_size};
     const auto entry = [&](Colour colour, float width, const char* words) {
         add_line(picture, {at.x + 4, at.y + 3}, {at.x + 10, at.y + 3}, colour, width);
-        add_text(picture, {at.x + 18, at.y}, words, text_size, Align::left);
+        add_text(picture, {at.x + 18, at.y}, words, text_size, palette::ink);
         at.y -= legend_line;
     };
     entry(stable, 6, "bounded, stepped in double");
@@ -192,7 +190,7 @@ void draw_legend(Picture& picture, const Layout& layout, bool has_differences) {
     for (const char* words :
          {"right: stiffer springs or longer steps, ω = √(k/m)",
           "up: more damping, ζ = b/(2·√(k·m)), critical at 1", "white: the spring is unstable"}) {
-        add_text(picture, at, words, text_size, Align::left);
+        add_text(picture, at, words, text_size, palette::ink);
         at.y -= legend_line;
     }
 }
@@ -201,9 +199,10 @@ void draw_legend(Picture& picture, const Layout& layout, bool has_differences) {
 
 Picture atlas(const std::vector<StabilityRegion>& regions, const StabilityGrid& grid) {
     Picture picture;
-    add_text(picture, {16, 344}, "Where a damped spring stays bounded, by method", 12, Align::left);
+    add_text(picture, {16, 344}, "Where a damped spring stays bounded, by method", 12,
+             palette::ink);
     add_text(picture, {16, 332}, "across: ω·dt, rad    up: damping ratio ζ", text_size,
-             Align::left);
+             palette::ink);
     const Layout layout = layout_of(regions.size());
     for (int place = 0; const StabilityRegion& region : regions) {
         const Panel panel{layout.plane(place), region, grid};

@@ -9,7 +9,7 @@
 #include "oiler/game/game.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
-#include "oiler/picture/theme.hpp"
+#include "oiler/picture/text.hpp"
 
 namespace oiler::cli {
 namespace {
@@ -82,21 +82,13 @@ private:
     std::size_t selected_;
 };
 
-void add_text(Picture& picture, Point at, std::string words, float size, Colour colour,
-              Align align = Align::left) {
-    picture.labels.push_back({.at = at,
-                              .text = std::move(words),
-                              .size = size,
-                              .colour = readable(colour),
-                              .align = align});
-}
-
 /// A name without ".toml", and shorter if it is wider than a card.
 std::string shortened(const Startable& one, float width, float size) {
-    constexpr float letter = 0.6F;  // of the size
     std::string name = one.name.substr(0, one.name.find('.'));
-    const auto most = static_cast<std::size_t>(std::max(2.0F, width / (letter * size)));
-    return name.size() > most ? name.substr(0, most - 1) + "…" : name;
+    const float room = 0.94F * width;  // letters may be wider than estimated
+    if (text_width(name, size) <= room) return name;
+    while (!name.empty() && text_width(name + "…", size) > room) name.pop_back();
+    return name + "…";
 }
 
 void DemoMenu::draw_card(std::size_t index, Picture& picture) const {
@@ -114,30 +106,30 @@ void DemoMenu::draw_card(std::size_t index, Picture& picture) const {
                                 .outline = is_marked ? 2.5F : 0.75F,
                                 .outline_colour = is_marked ? palette::blue : palette::pale,
                                 .space = Space::canvas});
-    constexpr float letters = 7;
-    add_text(picture, {centre.x, card.low.y + 2.5F}, shortened(shown_.all[index], size.x, letters),
+    constexpr float letters = 9;
+    add_text(picture, {centre.x, card.low.y + 4}, shortened(shown_.all[index], size.x, letters),
              letters, is_marked ? palette::blue : palette::ink, Align::centre);
 }
 
 Picture DemoMenu::picture() const {
     Picture picture;
     const Gallery& gallery = shown_.gallery;
-    add_text(picture, {Gallery::left, 338},
+    add_text(picture, {Gallery::left, 342},
              "Oiler: a fixed-timestep game loop that tells you what your timestep costs", 12,
              palette::ink);
     for (const auto& [words, y] :
          {std::pair{"Games", gallery.heading(false)}, {"Scenes", gallery.heading(true)}})
-        if (y) add_text(picture, {Gallery::left, *y}, words, 10, palette::grey);
+        if (y) add_text(picture, {Gallery::left, *y}, words, 11, palette::grey);
     for (std::size_t i = 0; i < shown_.all.size(); ++i) draw_card(i, picture);
 
     const Startable& one = shown_.all[selected_];
-    add_text(picture, {Gallery::left, 44}, one.name, 13, palette::blue);
-    add_text(picture, {Gallery::left, 29}, one.sentence, 10, palette::ink);
+    add_text(picture, {Gallery::left, 43}, one.name, 14, palette::blue);
+    add_text(picture, {Gallery::left, 27}, one.sentence, 11, palette::ink);
     const bool has_remark = !shown_.remark.empty();
     add_text(picture, {Gallery::left, 8},
              has_remark ? shown_.remark
                         : "Click, or choose with the arrows and start with Enter. Escape leaves.",
-             9, has_remark ? palette::vermilion : palette::grey);
+             10, has_remark ? palette::vermilion : palette::grey);
     return picture;
 }
 

@@ -7,7 +7,7 @@ namespace oiler::cli {
 namespace {
 
 // In units of the canvas.
-constexpr float top = 330, bottom = 60, gap = 6, name_height = 12, heading_height = 15;
+constexpr float top = 332, bottom = 58, gap = 6, name_height = 14, heading_height = 17;
 constexpr std::size_t most_columns = 24;
 
 }  // namespace

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/cli/startable.hpp"
 
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <string_view>
 #include <system_error>
 
 #include "oiler/core/nearest.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::cli {
@@ -94,6 +96,15 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
     fail(Exit::io, "cannot start {}: {}", one.command.front(), system_reason(error_number));
 }
 
+/// Executes a program in a new process, which gets SIGTERM when its parent ends.
+[[noreturn]] void become_child(const std::vector<char*>& arguments, pid_t parent) {
+    constexpr int not_found = 127;  // as a shell has it
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    // The parent may have ended before.
+    if (getppid() == parent) execv(arguments.front(), arguments.data());
+    _exit(not_found);
+}
+
 }  // namespace
 
 Home home_of(const fs::path& program) {
@@ -158,14 +169,16 @@ void become(const Startable& one, const std::vector<std::string>& arguments) {
 
 int run_and_wait(const Startable& one) {
     std::vector<std::string> words = one.command;
-    pid_t child = 0;
-    if (const int error = posix_spawn(&child, words.front().c_str(), nullptr, nullptr,
-                                      pointers_to(words).data(), environ);
-        error != 0)
-        fail_to_start(one, error);
+    const std::vector<char*> arguments = pointers_to(words);
+    const pid_t here = getpid();
+    const pid_t child = fork();
+    if (child < 0) fail_to_start(one, errno);
+    if (child == 0) become_child(arguments, here);
     int status = 0;
-    while (waitpid(child, &status, 0) < 0)
+    while (waitpid(child, &status, 0) < 0) {
         if (errno != EINTR) fail_to_start(one, errno);
+        if (Interrupt::requested()) kill(child, SIGTERM);
+    }
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

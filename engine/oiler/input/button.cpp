@@ -62,6 +62,10 @@ static_assert(is_named(Key::backslash, "\\") && is_named(Key::f12, "F12") &&
 constexpr std::array<std::string_view, stick_count> names_of_sticks{
     "left_x", "left_y", "right_x", "right_y", "left_trigger", "right_trigger"};
 
+constexpr std::array<std::string_view, stick_count> descriptions_of_sticks{
+    "left stick left/right", "left stick up/down", "right stick left/right",
+    "right stick up/down",   "left trigger",       "right trigger"};
+
 bool equal_but_for_case(std::string_view a, std::string_view b) {
     const auto lower = [](unsigned char letter) { return std::tolower(letter); };
     return std::ranges::equal(a, b, {}, lower, lower);
@@ -96,6 +100,10 @@ std::vector<std::string_view> button_names() {
 }
 
 std::string_view name_of(Stick stick) { return names_of_sticks[static_cast<std::size_t>(stick)]; }
+
+std::string_view describe(Stick stick) {
+    return descriptions_of_sticks[static_cast<std::size_t>(stick)];
+}
 
 std::optional<Stick> find_stick(std::string_view name) {
     std::string spelt(name);

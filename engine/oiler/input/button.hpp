@@ -93,6 +93,8 @@ private:
 [[nodiscard]] std::vector<std::string_view> button_names();
 
 [[nodiscard]] std::string_view name_of(Stick stick);  ///< "left_x"
+/// "left stick left/right", "left trigger": for a player.
+[[nodiscard]] std::string_view describe(Stick stick);
 /// The stick of such a name, also in upper case and with a space; empty if there is none.
 [[nodiscard]] std::optional<Stick> find_stick(std::string_view name);
 [[nodiscard]] std::span<const std::string_view> stick_names();

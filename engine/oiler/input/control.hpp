@@ -49,6 +49,9 @@ struct Action {
         : name(its_name), buttons({Button(which)...}) {}
 };
 
+/// Whether the game also reads the mouse for an axis: the help then names it.
+enum class ByMouse : bool { no, yes };
+
 /// A direction from -1 to 1, from buttons and a stick:
 /// `static constexpr Axis aim{"aim", Key::left, Key::right, Stick::left_x};`
 struct Axis {
@@ -56,10 +59,15 @@ struct Axis {
     Buttons negative;
     Buttons positive;
     std::optional<Stick> stick;
+    ByMouse by_mouse;
 
     constexpr Axis(std::string_view its_name, Buttons towards_minus, Buttons towards_plus,
-                   std::optional<Stick> its_stick = {})
-        : name(its_name), negative(towards_minus), positive(towards_plus), stick(its_stick) {}
+                   std::optional<Stick> its_stick = {}, ByMouse its_mouse = ByMouse::no)
+        : name(its_name),
+          negative(towards_minus),
+          positive(towards_plus),
+          stick(its_stick),
+          by_mouse(its_mouse) {}
 };
 
 /// The buttons and the stick that a player has for an action or an axis.
@@ -75,11 +83,14 @@ struct Binding {
 /// An action or an axis in the list of a game, and the buttons that a player chose for it.
 struct Control : Binding {
     std::string_view name;
+    ByMouse by_mouse = ByMouse::no;
 
     constexpr Control(const Action& action)
         : Binding{.positive = action.buttons}, name(action.name) {}
     constexpr Control(const Axis& axis)
-        : Binding{true, axis.negative, axis.positive, axis.stick}, name(axis.name) {}
+        : Binding{true, axis.negative, axis.positive, axis.stick},
+          name(axis.name),
+          by_mouse(axis.by_mouse) {}
 
     friend constexpr bool operator==(const Control&, const Control&) = default;
 };

@@ -8,7 +8,7 @@ namespace oiler {
 namespace {
 
 constexpr float usual_height = 720;
-constexpr float usual_width = 680;  // below, letters are smaller
+constexpr float usual_width = 930;  // below, letters are smaller
 constexpr float font_size = 14;
 constexpr float least_font_size = 11;  // pixels
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <variant>
+#include <vector>
 
 #include "oiler/inspector/error_plot.hpp"
 #include "oiler/inspector/gui.hpp"
@@ -16,7 +17,9 @@
 namespace oiler {
 namespace {
 
-constexpr float panel_width = 390;  // units
+constexpr float panel_width = 390;    // units
+constexpr float narrow_panel = 340;   // units; the table of settings fits, but for forces
+constexpr float panel_share = 0.42F;  // of the width of a small frame: the game needs the rest
 constexpr int lines_of_verdict = 4;
 constexpr int lines_of_state = 2;
 constexpr double frame_at_60_hz = 1e9 / 60;  // ns
@@ -211,26 +214,43 @@ struct Inspector::Impl {
         if (is_seeking) requests.step = seeked;
     }
 
-    static void show_settings(const Inspected& run, Requests& requests) {
-        if (run.settings.empty()) return;
-        ImGui::Separator();
-        text("Off the true motion as drawn, " + (run.is_of_round ? "in a round" : since(run)));
-        if (!ImGui::BeginTable("settings", 5, ImGuiTableFlags_SizingFixedFit)) return;
-        // The buttons come first, so that nothing pushes them, and the widths are those of the
-        // longest figures, because digits come and go.
-        const auto column = [](const char* name, float width) {
-            ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed,
-                                    std::max(width, ImGui::CalcTextSize(name).x));
-        };
+    struct Column {
+        const char* name;
+        float width;
+    };
+    static constexpr std::size_t columns_with_forces = 5;
+
+    /// The columns that fit. The buttons come first, so that nothing pushes them, and the widths
+    /// are those of the longest figures, because digits come and go.
+    static std::vector<Column> columns_of_settings(const Inspected& run) {
         float widest = 0;
         for (const Inspected::Setting& one : run.settings)
             widest = std::max(
                 widest, ImGui::CalcTextSize(difference(one.stepping, run.stepping).c_str()).x);
-        column("", width_of_button("Apply"));
-        column("", widest);
-        column("at most", width_of_marked("other events"));
-        column("a frame", ImGui::CalcTextSize("99.9 µs").x);
-        column("forces", ImGui::CalcTextSize("×0.99").x);
+        std::vector<Column> columns{{"", width_of_button("Apply")},
+                                    {"", widest},
+                                    {"at most", width_of_marked("other events")},
+                                    {"a frame", ImGui::CalcTextSize("99.9 µs").x},
+                                    {"forces", ImGui::CalcTextSize("×0.99").x}};
+        float whole = 0;
+        for (Column& one : columns) {
+            one.width = std::max(one.width, ImGui::CalcTextSize(one.name).x);
+            whole += one.width + 2 * ImGui::GetStyle().CellPadding.x;
+        }
+        if (whole > ImGui::GetContentRegionAvail().x) columns.pop_back();
+        return columns;
+    }
+
+    static void show_settings(const Inspected& run, Requests& requests) {
+        if (run.settings.empty()) return;
+        ImGui::Separator();
+        text("Off the true motion as drawn, " + (run.is_of_round ? "in a round" : since(run)));
+        const std::vector<Column> columns = columns_of_settings(run);
+        const bool has_forces = columns.size() == columns_with_forces;
+        const auto count = static_cast<int>(columns.size());
+        if (!ImGui::BeginTable("settings", count, ImGuiTableFlags_SizingFixedFit)) return;
+        for (const Column& one : columns)
+            ImGui::TableSetupColumn(one.name, ImGuiTableColumnFlags_WidthFixed, one.width);
         ImGui::TableHeadersRow();
         for (std::size_t i = 0; i < run.settings.size(); ++i) {
             const Inspected::Setting& one = run.settings[i];
@@ -244,8 +264,7 @@ struct Inspector::Impl {
             marked(one.grade, one.error);
             ImGui::TableNextColumn();
             text(one.cost);
-            ImGui::TableNextColumn();
-            text(one.forces);
+            if (has_forces && ImGui::TableNextColumn()) text(one.forces);
         }
         ImGui::EndTable();
         if (!run.rate_advice.empty()) wrapped(run.rate_advice);
@@ -398,7 +417,9 @@ struct Inspector::Impl {
 };
 
 Size Inspector::view(Size frame) {
-    const int panel = static_cast<int>(panel_width * Gui::unit_of(frame));
+    const float unit = Gui::unit_of(frame);
+    const float share = panel_share * static_cast<float>(frame.width);
+    const auto panel = static_cast<int>(std::clamp(share, narrow_panel * unit, panel_width * unit));
     return {frame.width - std::min(panel, 2 * frame.width / 3), frame.height};
 }
 

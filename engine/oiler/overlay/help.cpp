@@ -105,8 +105,11 @@ std::string buttons_of(const Control& control, const NameButton& name) {
     std::string text = names_of(control.positive, name);
     if (!control.negative.empty())
         text = names_of(control.negative, name) + (text.empty() ? "" : " and ") + text;
-    if (control.stick)
-        text.append(text.empty() ? "stick " : ", stick ").append(name_of(*control.stick));
+    const auto add = [&](std::string_view more) {
+        text.append(text.empty() ? "" : ", ").append(more);
+    };
+    if (control.stick) add(describe(*control.stick));
+    if (control.by_mouse == ByMouse::yes) add("mouse");
     return text.empty() ? "no button" : text;
 }
 

@@ -16,7 +16,8 @@ namespace oiler {
 /// The name of a button for the user.
 using NameButton = std::function<std::string(Button)>;
 
-/// "Space, Mouse left" of an action, "Left and Right, stick left_x" of an axis.
+/// "Space, Mouse left" of an action, "Left and Right, left stick left/right" of
+/// an axis.
 [[nodiscard]] std::string buttons_of(const Control& control, const NameButton& name);
 
 /// A button, or a control of a game, and its use.

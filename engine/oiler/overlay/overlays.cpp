@@ -9,6 +9,7 @@
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/text.hpp"
 #include "oiler/picture/theme.hpp"
 
 namespace oiler {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr float least_font_pixels = 11;
 constexpr float usual_font = 7;  // units
+constexpr float notice_font = 9;
 
 constexpr float overlay_letter_width = 0.55F;  // of the size, of the font's usual letters
 constexpr std::uint8_t opacity = 232;          // of sheets over a picture
@@ -38,17 +40,6 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
         lines.back() += word;
     }
     return lines;
-}
-
-constexpr float least_game_pixels = 9;  // of a font of a game
-
-/// The width that a label can take before the edge of an area cuts it, units of the canvas.
-float room_of(const Label& label, const OverlayArea& area, bool has_bars) {
-    const float moved = has_bars ? 0 : side_of(label.space).x * -area.low.x;
-    const float left = label.at.x + moved - area.low.x;
-    const float right = area.high.x - label.at.x - moved;
-    if (label.align == Align::left) return right;
-    return label.align == Align::right ? left : 2 * std::min(left, right);
 }
 
 void add_label(Picture& picture, Point at, std::string text, float size, Colour colour,
@@ -173,36 +164,38 @@ void add_verdict(Picture& overlay, const OverlayArea& area, const Verdict& verdi
     }
 }
 
-void add_notice(Picture& overlay, const OverlayArea& area, const std::string& text,
-                const std::string& remedy) {
+void add_notice(Picture& overlay, const OverlayArea& area, const Notice& notice) {
     const Theme& theme = theme_of(overlay.background);
-    const float size = area.legible(usual_font);
-    const float line_height = 1.4F * size;
-    const float letters = (area.high.x - area.low.x - 16) / (overlay_letter_width * size);
-    const auto most = static_cast<std::size_t>(std::clamp(letters, 10.0F, 100.0F));
-    std::vector<std::string> lines = wrapped(text, most);
-    const std::size_t last = lines.size();
-    for (std::string& line : wrapped(remedy, most)) lines.push_back(std::move(line));
-    const float height = line_height * static_cast<float>(lines.size());
+    const float size = area.legible(notice_font);
+    const float room = area.high.x - area.low.x - 16;
+    struct Line {
+        std::string text;
+        float size;
+        Colour colour;
+    };
+    std::vector<Line> lines;
+    const auto add = [&](const std::string& text, float of_line, Colour colour) {
+        if (text.empty()) return;
+        const float letters = std::clamp(room / (overlay_letter_width * of_line), 10.0F, 100.0F);
+        for (std::string& line : wrapped(text, static_cast<std::size_t>(letters)))
+            lines.push_back({std::move(line), of_line, colour});
+    };
+    add(notice.heading, 1.3F * size, theme.ink);
+    add(notice.text, size, theme.ink);
+    add(notice.remedy, size, theme.faint);
+    constexpr float line_height = 1.4F;
+    float height = 0;
+    for (const Line& line : lines) height += line_height * line.size;
     add_sheet(overlay, {canvas_width / 2, canvas_height / 2},
               {area.high.x - area.low.x, height + 1.6F * size},
               palette::faded(theme.paper, opacity));
     add_sheet(overlay, {area.low.x + 2, canvas_height / 2}, {4, height + 1.6F * size},
               palette::vermilion);
-    float y = (canvas_height + height) / 2 - size;
-    for (std::size_t i = 0; i < lines.size(); ++i, y -= line_height)
-        add_label(overlay, {canvas_width / 2, y}, std::move(lines[i]), size,
-                  i < last ? theme.ink : theme.faint, Align::centre);
-}
-
-void keep_legible(Picture& picture, const OverlayArea& area) {
-    for (Label& label : picture.labels) {
-        if (label.size_in != Space::canvas) continue;
-        float most = std::min(2 * label.size, least_game_pixels / area.pixels);
-        if (label.space != Space::world)
-            most = std::min(most, room_of(label, area, picture.has_bars) / overlay_letter_width /
-                                      static_cast<float>(label.text.size() + 1));
-        label.size = std::max(label.size, most);
+    float y = (canvas_height + height) / 2;
+    for (Line& line : lines) {
+        add_label(overlay, {canvas_width / 2, y - line.size}, std::move(line.text), line.size,
+                  line.colour, Align::centre);
+        y -= line_height * line.size;
     }
 }
 

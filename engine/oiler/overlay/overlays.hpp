@@ -45,12 +45,14 @@ void add_status(Picture& overlay, const OverlayArea& area, std::string status);
 void add_verdict(Picture& overlay, const OverlayArea& area, const Verdict& verdict,
                  const std::string& status = {});
 
-/// Adds a sheet with an event and its remedy.
-void add_notice(Picture& overlay, const OverlayArea& area, const std::string& text,
-                const std::string& remedy);
+/// An event that stops the play.
+struct Notice {
+    std::string heading;  ///< in larger letters; may be empty
+    std::string text;
+    std::string remedy;
+};
 
-/// Enlarges the illegible labels of a game in an area of that size, to at most twice their size and
-/// not beyond its edges.
-void keep_legible(Picture& picture, const OverlayArea& area);
+/// Adds a sheet with a notice across the middle of an area.
+void add_notice(Picture& overlay, const OverlayArea& area, const Notice& notice);
 
 }  // namespace oiler

@@ -4,6 +4,7 @@
 #include <SDL2/SDL_syswm.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -85,6 +86,7 @@ struct SdlFunctions {
     decltype(&SDL_DestroyWindow) destroy_window = library["SDL_DestroyWindow"];
     decltype(&SDL_GetWindowDisplayIndex) display_index = library["SDL_GetWindowDisplayIndex"];
     decltype(&SDL_GetCurrentDisplayMode) display_mode = library["SDL_GetCurrentDisplayMode"];
+    decltype(&SDL_GetDisplayUsableBounds) usable_bounds = library["SDL_GetDisplayUsableBounds"];
     decltype(&SDL_PollEvent) poll_event = library["SDL_PollEvent"];
     decltype(&SDL_GL_SetAttribute) set_attribute = library["SDL_GL_SetAttribute"];
     decltype(&SDL_GL_CreateContext) create_context = library["SDL_GL_CreateContext"];
@@ -154,8 +156,9 @@ void move_up(SDL_Event& event, int units) {
 
 class SdlWindow final : public Window {
 public:
-    SdlWindow(Size size, const std::string& title) {
+    SdlWindow(Size size, const std::string& title, Fit fit) {
         request_core_context();
+        if (fit == Fit::display) size = fitted(size);
         window_ = sdl_->create_window(
             title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width, size.height,
             SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
@@ -228,6 +231,13 @@ public:
     void present() override { sdl_->swap_window(window_); }
 
 private:
+    [[nodiscard]] Size fitted(Size size) const {
+        constexpr int display = 0;  // windows open on it
+        SDL_Rect room{};
+        if (sdl_->usable_bounds(display, &room) != 0 || room.w <= 0 || room.h <= 0) return size;
+        return {std::min(size.width, room.w), std::min(size.height, room.h)};
+    }
+
     void request_core_context() const {
         sdl_->set_attribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
         sdl_->set_attribute(SDL_GL_CONTEXT_MINOR_VERSION, 3);
@@ -268,9 +278,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Window> open_window(Size size, const std::string& title) {
+std::unique_ptr<Window> open_window(Size size, const std::string& title, Fit fit) {
     limit_llvmpipe();
-    return std::make_unique<SdlWindow>(size, title);
+    return std::make_unique<SdlWindow>(size, title, fit);
 }
 
 }  // namespace oiler

@@ -70,9 +70,14 @@ enum class Offscreen { automatic, osmesa, egl };
 /// Whether the environment names a display; there may be none all the same.
 [[nodiscard]] bool has_display();
 
+enum class Fit {
+    none,
+    display,  ///< at most as large as the display, without its panels
+};
+
 /// Opens a window of about `size` on the user's display.
 /// Throws Error{no_display}, naming --headless, without a display, SDL2 or GL 3.3.
-[[nodiscard]] std::unique_ptr<Window> open_window(Size size, const std::string& title);
+[[nodiscard]] std::unique_ptr<Window> open_window(Size size, const std::string& title, Fit fit);
 
 /// Opens a context without a screen. Its library is loaded at run time.
 /// Throws Error{no_display}, naming the Debian package to install.

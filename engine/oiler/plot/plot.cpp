@@ -6,11 +6,11 @@
 #include <numbers>
 #include <optional>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/text.hpp"
 #include "oiler/picture/theme.hpp"
 #include "oiler/plot/ticks.hpp"
 
@@ -145,18 +145,6 @@ Label text(Point at, std::string words, float size, Align align) {
 
 float clamped(float low, double value, float high) {
     return static_cast<float>(std::clamp(value, double{low}, double{high}));
-}
-
-/// Width of a letter in ems, rounded from DejaVu Sans. Continuation bytes of UTF-8 have width 0.
-float width_of(char letter) {
-    const auto is_in = [&](std::string_view set) { return set.find(letter) != set.npos; };
-    if ((letter & 0xC0) == 0x80) return 0;
-    if (is_in("ijlI.,:;'!- ")) return 0.32F;
-    if (is_in("frt()/")) return 0.4F;
-    if (letter == '_') return 0.5F;
-    if (is_in("mMwW%")) return 1;
-    if ((letter >= '0' && letter <= '9') || (letter >= 'A' && letter <= 'Z')) return 0.66F;
-    return 0.6F;
 }
 
 /// The part of a segment within the box (Liang and Barsky, 1984); empty if an end is not finite.
@@ -369,12 +357,6 @@ void draw_marks(const Plot& plot, const Series& series, Picture& picture) {
 }
 
 }  // namespace
-
-float text_width(std::string_view words, float size) {
-    float width = 0;
-    for (const char letter : words) width += size * width_of(letter);
-    return width;
-}
 
 void Plot::draw(Picture& picture, ElementKey key) const {
     draw_grid(*this, picture);

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oiler/picture/picture.hpp"
@@ -65,9 +64,5 @@ struct Plot {
 
     [[nodiscard]] Point to_canvas(DataPoint point) const;
 };
-
-/// Width of a line of text in the units of its font size, estimated from DejaVu Sans: a picture
-/// does not know its font.
-[[nodiscard]] float text_width(std::string_view words, float size);
 
 }  // namespace oiler

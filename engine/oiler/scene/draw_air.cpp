@@ -57,7 +57,8 @@ public:
     }
 
 private:
-    static constexpr double farthest = 1e9;  // columns or rows
+    static constexpr double farthest = 1e9;        // columns or rows
+    static constexpr float width_of_head = 0.16F;  // of the spacing, four times that of the shaft
 
     struct Range {
         double first;
@@ -68,12 +69,22 @@ private:
                 std::ceil((centre + half - shift) / spacing_)};
     }
 
+    /// Whether an arrow at this place would cross the texts of a scene.
+    [[nodiscard]] bool crosses_texts(Point at) const {
+        constexpr float foot_low = 6, foot_high = 22, head_low = 320, head_high = 352;
+        const float reach = std::abs(half_.y) + width_of_head / 2 * static_cast<float>(spacing_);
+        const float low = picture_.camera.to_canvas({at.x, at.y - reach}).y;
+        const float high = picture_.camera.to_canvas({at.x, at.y + reach}).y;
+        return (high > foot_low && low < foot_high) || (high > head_low && low < head_high);
+    }
+
     void add(double column, double row) {
         const Point at = point_of(shift_ + spacing_ * Vec3{column, row});
+        if (crosses_texts(at)) return;
         picture_.polygons.push_back(
             {.key = key_of_arrow(static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)),
              .points = arrow({at.x - half_.x, at.y - half_.y}, {at.x + half_.x, at.y + half_.y},
-                             0.04F * static_cast<float>(spacing_)),
+                             width_of_head / 4 * static_cast<float>(spacing_)),
              .colour = palette::mix(picture_.background, palette::sky_blue, 0.4F)});
     }
 
