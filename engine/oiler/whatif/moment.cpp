@@ -13,18 +13,17 @@ namespace {
 
 bool is_whole(double value) { return std::trunc(value) == value; }
 
-bool is_same_body(const Moment::Placed& one, const Moment::Placed& other) {
-    return one.entity == other.entity && one.jumps == other.jumps;
-}
-
 bool is_same_count(const Reading& one, const Reading& other) {
     const bool counts = is_whole(one.value) && is_whole(other.value);
     return one.name == other.name && (!counts || one.value == other.value);
 }
 
-bool is_same_but_bodies(const Moment& a, const Moment& b) {
-    return a.cuts == b.cuts && a.quits == b.quits &&
-           std::ranges::equal(a.readings, b.readings, is_same_count);
+bool is_same_round(const Moment& a, const Moment& b) {
+    return a.cuts == b.cuts && a.quits == b.quits;
+}
+
+bool have_same_counts(const Moment& a, const Moment& b) {
+    return std::ranges::equal(a.readings, b.readings, is_same_count);
 }
 
 /// "coins 2, true 3"
@@ -59,11 +58,32 @@ const Moment::Placed* same_body(const Moment& moment, const Moment::Placed& body
     return found != moment.bodies.end() && is_same_body(*found, body) ? &*found : nullptr;
 }
 
+/// Finds the bodies of a moment in the order of their entities.
+class SameBody {
+public:
+    explicit SameBody(const Moment& moment)
+        : next_(moment.bodies.data()), end_(next_ + moment.bodies.size()) {}
+
+    /// Null if there is none.
+    const Moment::Placed* of(const Moment::Placed& body) {
+        while (next_ != end_ && id_of(*next_) < id_of(body)) ++next_;
+        return next_ != end_ && is_same_body(*next_, body) ? next_ : nullptr;
+    }
+
+private:
+    const Moment::Placed* next_;
+    const Moment::Placed* end_;
+};
+
 Vec3 place(const Moment::Placed& from, const Moment::Placed& to, double alpha) {
     return from.position + (to.position - from.position) * alpha;
 }
 
 }  // namespace
+
+bool is_same_body(const Moment::Placed& one, const Moment::Placed& other) {
+    return one.entity == other.entity && one.jumps == other.jumps;
+}
 
 Moment moment_of(const AnyGame& game) {
     const World& world = game.world();
@@ -80,7 +100,8 @@ Moment moment_of(const AnyGame& game) {
 }
 
 bool is_same_play(const Moment& a, const Moment& b) {
-    return is_same_but_bodies(a, b) && std::ranges::equal(a.bodies, b.bodies, is_same_body);
+    return is_same_round(a, b) && have_same_counts(a, b) &&
+           std::ranges::equal(a.bodies, b.bodies, is_same_body);
 }
 
 std::string describe_difference(const Moment& play, const Moment& truth,
@@ -101,12 +122,9 @@ std::string describe_difference(const Moment& play, const Moment& truth,
 std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies(const Moment& a,
                                                                                  const Moment& b) {
     std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> pairs;
-    auto other = b.bodies.begin();
-    for (const Moment::Placed& body : a.bodies) {
-        while (other != b.bodies.end() && id_of(*other) < id_of(body)) ++other;
-        if (other != b.bodies.end() && is_same_body(body, *other))
-            pairs.emplace_back(&body, &*other);
-    }
+    SameBody other(b);
+    for (const Moment::Placed& body : a.bodies)
+        if (const Moment::Placed* const same = other.of(body)) pairs.emplace_back(&body, same);
     return pairs;
 }
 
@@ -124,22 +142,28 @@ std::optional<Apart> largest_distance(const Moment& a, const Moment& b) {
 
 std::optional<Apart> largest_distance(const Moment& truth, const Moment& before,
                                       const Moment& after, double alpha) {
-    const std::size_t count = truth.bodies.size();
-    if (!is_same_but_bodies(truth, after) || !is_same_but_bodies(before, after) ||
-        before.bodies.size() != count || after.bodies.size() != count)
-        return std::nullopt;
-    Apart largest;
+    if (!is_same_round(truth, after) || !is_same_round(before, after)) return std::nullopt;
+    std::optional<Apart> largest;
     double largest_squared = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Moment::Placed& from = before.bodies[i];
-        const Moment::Placed& to = after.bodies[i];
-        if (!is_same_body(from, to) || !is_same_body(to, truth.bodies[i])) return std::nullopt;
-        const Vec3 apart = truth.bodies[i].position - place(from, to, alpha);
+    std::size_t compared = 0;
+    SameBody from(before), real(truth);
+    for (const Moment::Placed& to : after.bodies) {
+        const Moment::Placed* const start = from.of(to);
+        const Moment::Placed* const goal = real.of(to);
+        if (!start || !goal) continue;
+        ++compared;
+        if (!largest) largest = Apart{0, to.entity};
+        const Vec3 apart = goal->position - place(*start, to, alpha);
         const double squared = dot(apart, apart);
         if (!(squared > largest_squared)) continue;
         largest_squared = squared;
         largest = {std::hypot(apart[0], apart[1], apart[2]), to.entity};
     }
+    if (largest)
+        largest->is_same_play = compared == truth.bodies.size() &&
+                                compared == before.bodies.size() &&
+                                compared == after.bodies.size() && have_same_counts(truth, after) &&
+                                have_same_counts(before, after);
     return largest;
 }
 

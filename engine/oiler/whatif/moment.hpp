@@ -28,6 +28,9 @@ struct Moment {
 
 [[nodiscard]] Moment moment_of(const AnyGame& game);
 
+/// Whether it is the same entity and was teleported equally often.
+[[nodiscard]] bool is_same_body(const Moment::Placed& one, const Moment::Placed& other);
+
 /// Whether bodies, teleports, restarts and whole-number readings are the same.
 [[nodiscard]] bool is_same_play(const Moment& a, const Moment& b);
 
@@ -48,12 +51,12 @@ struct Moment {
 struct Apart {
     double distance = 0;  ///< m
     Entity body{};
+    bool is_same_play = true;  ///< and else, too
 };
-/// The body with the largest distance from that of the other play; empty if they are not the same
-/// play.
+/// The same body with the largest distance in two plays; empty if they have none, or if only one
+/// has restarted or ended.
 [[nodiscard]] std::optional<Apart> largest_distance(const Moment& a, const Moment& b);
-/// The same, of the bodies as drawn at `alpha` between two moments. Empty, too, if these two are
-/// not the same play.
+/// That of the bodies as drawn at `alpha` between two moments.
 [[nodiscard]] std::optional<Apart> largest_distance(const Moment& truth, const Moment& before,
                                                     const Moment& after, double alpha);
 

@@ -15,8 +15,7 @@ namespace {
 
 using Times = std::vector<std::chrono::nanoseconds>;
 
-constexpr double lasting_difference = 0.25;  // s
-constexpr double small = 1e-3;               // of a pixel
+constexpr double small = 1e-3;  // of a pixel
 constexpr double frames_per_second = 60;
 
 Rate rate_of_instants(Rate recorded) {
@@ -176,13 +175,12 @@ void SettingRun::play_until(std::int64_t recorded, const TrueMotion& truth, doub
         const std::int64_t step = steps_;
         take_step();
         if (steps_ == step) return;
-        if (!differs_from_) compare_impacts(before, truth.impacts, visible);
+        compare_impacts(before, truth.impacts, visible);
         for (; next != moments.end(); ++next) {
             const double alpha = instants_.since(step, next->index);
             if (alpha > 1) break;
-            if (next->moment.bodies.empty()) continue;
             if (const auto apart = largest_distance(next->moment, before, moment(), alpha))
-                note(*apart, rate.time(next->index), visible);
+                note({rate.time(next->index), *apart, visible});
         }
     }
 }
@@ -198,7 +196,7 @@ void SettingRun::compare_impacts(const Moment& before, const std::deque<TrueImpa
         if (alpha > 1) return;
         const auto apart = distance_of(next->body, before, moment(), alpha);
         if (apart && before.cuts == next->cuts && moment().cuts == next->cuts)
-            note(*apart, next->index * rate_of_instants(recorded_rate_).dt(), visible);
+            note({next->index * rate_of_instants(recorded_rate_).dt(), *apart, visible});
     }
 }
 
@@ -230,38 +228,50 @@ void SettingRun::fail_with(const Error& error) {
 
 void SettingRun::compare(std::int64_t recorded, double time, const Moment& reference,
                          const AnyGame& true_game, double visible) {
-    if (failed() || result_.other_play_from) return;
-    const std::optional<Apart> apart = largest_distance(reference, moment());
+    if (result_.other_play_from) return;
+    if (failed()) return settle();
     const bool is_at_step = ratio_.has(recorded);
-    if (!apart) {
-        const double late = is_at_step ? 0 : result_.stepping.rate.dt();
-        if (!differs_from_) {
-            differs_from_ = time;
-            difference_ = describe_difference(moment(), reference, [&](Entity body) {
-                return (game_->world().has_body(body) ? *game_ : true_game).name_of(body);
-            });
-        }
-        if (time - *differs_from_ < lasting_difference + late) return;
-        result_.other_play_from = differs_from_;
-        result_.other_play = difference_;
-        return;
-    }
-    differs_from_.reset();
-    if (!is_at_step || recorded == 0 || reference.bodies.empty()) return;
-    if (!(apart->distance <= result_.distance_at_steps))
-        result_.distance_at_steps = apart->distance;
-    note(*apart, time, visible);
+    const auto found = other_play_.compare(
+        moment(), reference, time, is_at_step ? 0 : result_.stepping.rate.dt(), [&](Entity body) {
+            return (game_->world().has_body(body) ? *game_ : true_game).name_of(body);
+        });
+    const auto apart =
+        is_at_step && recorded > 0 && !found ? largest_distance(reference, moment()) : std::nullopt;
+    if (apart) note({time, *apart, visible, true});
+    settle_until(found ? found->from : other_play_.since());
+    if (!found) return;
+    notes_.clear();
+    result_.other_play_from = found->from;
+    result_.other_play = found->text;
 }
 
-void SettingRun::note(const Apart& apart, double time, double visible) {
-    if (!(apart.distance <= result_.distance)) {
-        result_.distance = apart.distance;
-        result_.furthest = apart.body;
+void SettingRun::note(const Note& note) {
+    result_.distance_now = std::max(result_.distance_now, note.apart.distance);
+    notes_.push_back(note);
+}
+
+void SettingRun::settle_until(double time) {
+    // A difference begins up to a recorded step before it is seen.
+    const double certain = time - recorded_rate_.dt();
+    const auto is_settled = [&](const Note& note) {
+        return note.time < (note.apart.is_same_play ? time : certain);
+    };
+    for (const Note& note : notes_)
+        if (is_settled(note)) count(note);
+    std::erase_if(notes_, is_settled);
+}
+
+void SettingRun::count(const Note& note) {
+    const double distance = note.apart.distance;
+    if (note.is_at_step && !(distance <= result_.distance_at_steps))
+        result_.distance_at_steps = distance;
+    if (!(distance <= result_.distance)) {
+        result_.distance = distance;
+        result_.furthest = note.apart.body;
     }
-    result_.distance_now = std::max(result_.distance_now, apart.distance);
     // The impacts of a step are compared before its instants.
-    if (apart.distance > visible)
-        result_.visible_from = std::min(time, result_.visible_from.value_or(time));
+    if (distance > note.visible)
+        result_.visible_from = std::min(note.time, result_.visible_from.value_or(note.time));
 }
 
 void SettingRun::read(std::int64_t recorded, const std::vector<Reading>& truth) {
@@ -329,7 +339,10 @@ void WhatIfRuns::play_until(std::int64_t step) {
     if (const AnyGame& game = runs_.front()->game(); game.loop().quits())
         replay_.compare_end(runs_.front()->steps(), true);
     if (step > 0 && !runs_.front()->failed()) replay_.after(step - 1, runs_.front()->game());
-    if (!is_known) return;
+    if (!is_known) {
+        for (const auto& run : runs_) run->settle();
+        return;
+    }
     const double time = recording_.header.stepping.rate.time(step);
     for (const auto& run : runs_)
         run->compare(step, time, truth_.moments.back().moment, reference_.game(), visible());

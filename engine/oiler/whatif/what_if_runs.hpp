@@ -14,6 +14,7 @@
 #include "oiler/play/replay.hpp"
 #include "oiler/render/renderer.hpp"
 #include "oiler/whatif/moment.hpp"
+#include "oiler/whatif/other_play.hpp"
 #include "oiler/whatif/what_if.hpp"
 
 namespace oiler {
@@ -98,6 +99,8 @@ public:
     /// places of bodies if a step of this run begins then, too. `true_game` is the reference.
     void compare(std::int64_t recorded, double time, const Moment& reference,
                  const AnyGame& true_game, double visible);
+    /// Counts the distances until the play differs. Later ones wait until that is over.
+    void settle() { settle_until(other_play_.since()); }
     /// Reads the game as that recorded step begins, if a step of this run begins then, too.
     /// `truth` are the readings of the reference.
     void read(std::int64_t recorded, const std::vector<Reading>& truth);
@@ -110,12 +113,20 @@ public:
     [[nodiscard]] std::int64_t steps() const { return steps_; }
     [[nodiscard]] const WhatIfRun& result() const { return result_; }
     /// Whether the play was another one when it was last compared.
-    [[nodiscard]] bool differs() const { return differs_from_.has_value(); }
+    [[nodiscard]] bool differs() const { return other_play_.differs(); }
     [[nodiscard]] bool failed() const { return !result_.failure.empty(); }
     /// The result with costs and readings.
     [[nodiscard]] WhatIfRun finish() const;
 
 private:
+    /// A distance from the true motion.
+    struct Note {
+        double time;  ///< s
+        Apart apart;
+        double visible;  ///< the least distance that a player sees then, m
+        bool is_at_step = false;
+    };
+
     [[nodiscard]] bool goes_on() const { return !game_->loop().quits() && !failed(); }
     void take_step();
     /// Ends the run with an error of the game; throws any other one.
@@ -123,7 +134,10 @@ private:
     void add_impacts(std::deque<TrueImpact>& impacts) const;
     void compare_impacts(const Moment& before, const std::deque<TrueImpact>& impacts,
                          double visible);
-    void note(const Apart& apart, double time, double visible);
+    void note(const Note& note);
+    /// Counts what was noted before that time, s, when the play was certainly the same.
+    void settle_until(double time);
+    void count(const Note& note);
 
     WhatIfRun result_;
     ResampledInput inputs_;
@@ -135,8 +149,8 @@ private:
     std::int64_t steps_ = 0;
     std::int64_t evaluations_ = 0;
     std::optional<Moment> moment_;  ///< empty if a step was taken since
-    std::optional<double> differs_from_;
-    std::string difference_{};  ///< since then
+    OtherPlay other_play_;
+    std::vector<Note> notes_;  ///< not yet counted
     std::vector<std::chrono::nanoseconds> updates_;
     std::vector<std::chrono::nanoseconds> world_steps_;
     std::vector<std::chrono::nanoseconds> pictures_;
