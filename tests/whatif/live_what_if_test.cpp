@@ -200,6 +200,23 @@ TEST(LiveWhatIf, ComparesManyBodiesInTheMiddleOfEachStep) {
     }
 }
 
+// Euler is 11 cm off after 40 steps, so no offered rate is expected within half a pixel: 8, 16 and
+// 32 times the rate are tried in the next round, which the press in the last one does not hinder.
+TEST(LiveWhatIf, TriesRatesAfterARoundWithInput) {
+    Measured<> measured;
+    measured.game.step(0, 40, measured.tap);
+    measured.along.play_until(40);
+    measured.along.repeat(40);
+    measured.game.step(40, 2, measured.tap);
+    measured.along.play_until(42);
+    EXPECT_FALSE(measured.along.figures().repeats);
+    std::vector<std::int64_t> rates;
+    for (const WhatIfRun& run : measured.along.figures().measured->runs)
+        rates.push_back(run.stepping.rate.steps);
+    for (const std::int64_t rate : {480, 960, 1920})
+        EXPECT_EQ(std::ranges::count(rates, rate), 1) << rate;
+}
+
 struct MovesTheMouse final : InputSource {
     InputQueue queue;
     Input next(std::int64_t step) override {

@@ -191,7 +191,9 @@ void LivePlay::restart() {
 
 void LivePlay::measure() {
     if (!what_if_ || !has_shown_ || std::exchange(measures_, true)) return;
-    if (playback_.steps() == 0)
+    if (!run_.about.fixed_setting.empty())
+        what_if_->stop("");
+    else if (playback_.steps() == 0)
         what_if_->start(0);
     else
         measure_from_here();

@@ -40,9 +40,9 @@ PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
         figures_ = before->figures_;
         return;
     }
-    const bool is_same_round = is_repeated && before->can_repeat();
-    if (is_same_round) before->judge();
-    if (is_same_round && before->figures_.measured) {
+    if (is_repeated) before->judge();
+    const std::optional<WhatIf> last = is_repeated ? before->figures_.measured : std::nullopt;
+    if (last && before->can_repeat()) {
         figures_ = before->figures_;
         figures_.begin_repeat();
     }
@@ -53,7 +53,7 @@ PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
         if (is_too_large_)
             stop("");
         else
-            runs_.emplace(play_, other_settings(from.make), from.make);
+            runs_.emplace(play_, other_settings(from.make, last), from.make);
     } catch (const std::exception& error) {
         stop(error.what());
     }
@@ -69,10 +69,11 @@ void PlayAlong::begin(const AnyGame& game) {
     figures_.energy_scale.add(energy);
 }
 
-std::vector<Stepping> PlayAlong::other_settings(const MakeGame& make) const {
+std::vector<Stepping> PlayAlong::other_settings(const MakeGame& make,
+                                                const std::optional<WhatIf>& last) const {
     std::vector<Stepping> others = usual_what_if(play_.settings, make);
-    if (!figures_.repeats) return others;
-    for (const std::int64_t rate : rates_to_try(*figures_.measured)) {
+    if (!last) return others;
+    for (const std::int64_t rate : rates_to_try(*last)) {
         Stepping tried = play_.settings.stepping;
         tried.rate = {rate};
         if (tried != play_.settings.stepping && std::ranges::count(others, tried) == 0)

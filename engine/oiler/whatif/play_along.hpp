@@ -48,8 +48,8 @@ struct AlongFrom {
     RecordedPlay play;      ///< without events and steps
     MakeGame make;          ///< makes the game as it is there
     bool is_start = false;  ///< whether each round of the game begins there
-    /// Whether the round before may be repeated: unless it had input, its result stays until as
-    /// much is measured again, and the rate that it advises plays along, too.
+    /// Whether the round before may be repeated: the rate that it advises plays along, too, and
+    /// unless it had input, its result stays until as much is measured again.
     bool may_repeat = false;
 };
 
@@ -84,7 +84,9 @@ private:
     void stop(std::string reason);
     /// The name of a body of the played run, also when it is gone.
     [[nodiscard]] std::string name_of(Entity body);
-    [[nodiscard]] std::vector<Stepping> other_settings(const MakeGame& make) const;
+    /// The usual other settings, and the rates that the last round advises, if there was one.
+    [[nodiscard]] std::vector<Stepping> other_settings(const MakeGame& make,
+                                                       const std::optional<WhatIf>& last) const;
 
     RecordedPlay play_;  ///< its recording grows
     bool is_start_;
