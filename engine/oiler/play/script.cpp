@@ -201,7 +201,9 @@ constexpr Deed deeds[]{
 /// A step, or a time such as 1.5s.
 std::int64_t take_step(LineWords& words, Rate rate) {
     const auto seconds = words.take_seconds();
-    if (!seconds) return words.take_number<std::int64_t>("step");
+    if (!seconds)
+        return words.take_number<std::int64_t>(
+            "step: give its number, such as 30, or a time, such as 1.5s");
     // 0.14 s at 50 Hz are 7 steps, though the product is a little more.
     const double steps = std::ceil(*seconds / rate.dt() * (1 - 0x1p-50));
     if (std::abs(steps) > 0x1p53) words.refuse("that is too late");
@@ -210,7 +212,7 @@ std::int64_t take_step(LineWords& words, Rate rate) {
 
 ScriptLine parse_line(LineWords& words, Rate rate, Controls controls) {
     ScriptLine line{.step = take_step(words, rate)};
-    if (line.step < 0) words.refuse("a step is 0 or more");
+    if (line.step < 0) words.refuse("the first step is 0: give a number of 0 or more");
     const std::string_view word = words.take();
     const auto deed = std::ranges::find(deeds, word, &Deed::word);
     if (deed == std::end(deeds)) {

@@ -44,7 +44,7 @@ void require_first(bool& named, const std::string& word) {
 
 void apply_word(const std::string& word, Stepping& stepping, Named& named) {
     const char* const end = word.data() + word.size();
-    if (word.empty()) fail(Exit::usage, "a word is empty");
+    if (word.empty()) fail(Exit::usage, "a word is missing beside a comma or an @");
     std::int64_t rate = 0;
     const auto [last, error] = std::from_chars(word.data(), end, rate);
     if (error == std::errc() && last == end) {
