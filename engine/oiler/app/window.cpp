@@ -77,7 +77,8 @@ bool GameWindow::frame(std::chrono::nanoseconds now) {
         window_->poll(run_.live.queue, keys_,
                       {.width = parts.share(&Size::width),
                        .height = parts.share(&Size::height),
-                       .mouse = !panels_.inspector || !inspector_.has_mouse()});
+                       .mouse = !panels_.inspector || !inspector_.has_mouse(),
+                       .escape = !panels_.help});
     is_lost_ = state == Window::State::lost;
     if (is_lost_) return false;
     const Input keys = keys_.take({});
