@@ -24,14 +24,15 @@ double apex(int rate, int sign) {
     return highest;
 }
 
-/// The labels of a picture as a window of 400 by 300 pixels shows them.
+/// The labels on the canvas of a picture as a window of 400 by 300 pixels shows them.
 std::vector<Label> small_labels(const nlohmann::json& picture) {
     Picture small;
     for (const auto& label : picture.at("labels"))
-        small.labels.push_back({.at = {label.at("at")[0], label.at("at")[1]},
-                                .text = label.at("text"),
-                                .size = label.at("size"),
-                                .align = static_cast<Align>(label.at("align").get<int>())});
+        if (label.at("space") == "canvas")
+            small.labels.push_back({.at = {label.at("at")[0], label.at("at")[1]},
+                                    .text = label.at("text"),
+                                    .size = label.at("size"),
+                                    .align = static_cast<Align>(label.at("align").get<int>())});
     keep_legible(small, OverlayArea({400, 300}));
     return small.labels;
 }
