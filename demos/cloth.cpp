@@ -54,8 +54,11 @@ struct Grip {
     Vec3 offset;  // m, from the mouse
 };
 
-/// n of a flat net is 8. Its weight stretches it and turns its diagonals. From the rate of this n
-/// on, it hangs without a tear, as measured.
+/// n of an endless flat net is 8. This one has edges: any method tears it, some slowly, at a rate
+/// below that of this n, as measured.
+constexpr double n_torn = 7.5;
+/// Its weight stretches the net and turns its diagonals. From the rate of this n on, it hangs
+/// without a tear, as measured; methods that damp hold at less.
 constexpr double n_hanging = 8.4;
 /// In no shape n is more than the sum of 8 threads at both ends of one.
 constexpr double n_crumpled = 16;
@@ -65,7 +68,7 @@ constexpr double n_crumpled = 16;
 double lowest_rate(const Method& method, Damping where, double n) {
     const auto is_stable_at = [&](double rate) {
         const double springs = n / mass / rate;
-        const Oscillation wave{springs * stiffness / rate, springs * damping};
+        const Oscillation wave{springs * stiffness / rate, springs * damping + drag / mass / rate};
         return is_stable(step_matrices(method, where, std::span(&wave, 1)).front());
     };
     constexpr double step = 1.05;
@@ -82,13 +85,14 @@ double lowest_rate(const Method& method, Damping where, double n) {
 
 /// The lowest stable rates of a method, Hz, which are kept.
 struct Needs {
-    double hanging, crumpled;
+    double torn, hanging, crumpled;
 };
 const Needs& needs_of(const Method& method, Damping where) {
     static std::map<std::pair<const Method*, Damping>, Needs> known;
     const auto found = known.find({&method, where});
     if (found != known.end()) return found->second;
-    return known[{&method, where}] = {lowest_rate(method, where, n_hanging),
+    return known[{&method, where}] = {lowest_rate(method, where, n_torn),
+                                      lowest_rate(method, where, n_hanging),
                                       lowest_rate(method, where, n_crumpled)};
 }
 
@@ -273,17 +277,19 @@ struct Cloth {
         const auto& [method, rate, precision, damping_in] = world.settings().stepping;
         const Needs& needs = needs_of(*method, damping_in.value_or(method->damping));
         const auto hz = static_cast<double>(rate.steps);
-        const Colour colour = hz < needs.hanging    ? palette::vermilion
+        const Colour colour = hz < needs.torn       ? palette::vermilion
                               : hz < needs.crumpled ? palette::orange
                                                     : palette::green;
         const std::string words =
             needs.crumpled == 1
                 ? "It holds at any rate."
-                : fmt::format("It needs {:.0f} Hz while it hangs, up to {:.0f} Hz crumpled: {}.",
-                              needs.hanging, needs.crumpled,
-                              hz < needs.hanging    ? "it tears itself to pieces"
-                              : hz < needs.crumpled ? "do not crumple it"
-                                                    : "it holds");
+                : fmt::format(
+                      "It needs about {:.0f} Hz while it hangs, up to {:.0f} Hz crumpled: {}.",
+                      needs.hanging, needs.crumpled,
+                      hz < needs.torn       ? "it tears itself to pieces"
+                      : hz < needs.hanging  ? "it may tear as it swings"
+                      : hz < needs.crumpled ? "do not crumple it"
+                                            : "it holds");
         add_text(picture, {14, 337}, fmt::format("{} at {} Hz", method->name, rate.steps), 15,
                  colour);
         add_text(picture, {14, 320}, words, 9, palette::ink);

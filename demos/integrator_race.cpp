@@ -173,7 +173,7 @@ struct IntegratorRace {
 
     void draw_lane(Picture& picture, std::size_t index, const Lane& lane, const Sample& now,
                    const Sample& truth, const std::string& result) const {
-        constexpr float left = 14, right = 366, metre = 60, reach = 2.1F, radius = 7;
+        constexpr float left = 14, right = 366, metre = 60, reach = 2.5F, radius = 7;
         const float y = 322 - 38.5F * static_cast<float>(index);
         const float strip = y - 14, centre = (left + right) / 2;
         add_text(picture, {left, y}, std::string(lane.method), 10, lane.colour);
@@ -208,10 +208,15 @@ struct IntegratorRace {
                                  .space = Space::canvas});
         if (!is_out) return;
         const double distance = std::abs(now.x);
-        const std::string words = distance < 1e4 ? fmt::format("{:.1f} m", distance)
-                                                 : fmt::format("{:.0f} km", distance / 1000);
-        add_text(picture, {place(now.x).x + 11, strip - 3}, now.x > 0 ? words + " ▶" : "◀ " + words,
-                 9, palette::ink);
+        const std::string words = distance < 100   ? fmt::format("{:.1f} m", distance)
+                                  : distance < 1e4 ? fmt::format("{:.0f} m", distance)
+                                                   : fmt::format("{:.0f} km", distance / 1000);
+        const Point disc = place(now.x);
+        if (now.x > 0)
+            add_text(picture, {disc.x - 11, strip - 3}, words + " ▶", 9, palette::ink,
+                     Align::right);
+        else
+            add_text(picture, {disc.x + 11, strip - 3}, "◀ " + words, 9, palette::ink);
     }
 
     void draw_portrait(Picture& picture) const {

@@ -222,8 +222,7 @@ struct Jump {
         for (const std::int64_t at : rates)
             add_text(picture, {place_of(at), 20}, fmt::format("{}", at), 9,
                      at == rate() ? palette::ink : palette::grey, Align::centre);
-        add_text(picture, {620, 20}, "Hz", 9, palette::grey);
-        add_text(picture, {320, 5}, "Drag the rate of the right ball, or press ← →", 9,
+        add_text(picture, {320, 5}, "Drag the rate of the right ball in Hz, or press ← →", 9,
                  palette::ink, Align::centre);
         picture.discs.push_back({.centre = {place_of(rate()), slider_low.y},
                                  .radius = 8,

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/played.hpp"
+#include "oiler/overlay/legible.hpp"
+#include "oiler/picture/text.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -20,6 +22,30 @@ double apex(int rate, int sign) {
         highest = std::max(highest, 9 * n * dt - 10 * dt * dt * n * (n + sign));
     }
     return highest;
+}
+
+/// The labels on the canvas of a picture as a window of 400 by 300 pixels shows them.
+std::vector<Label> small_labels(const nlohmann::json& picture) {
+    Picture small;
+    for (const auto& label : picture.at("labels"))
+        if (label.at("space") == "canvas")
+            small.labels.push_back({.at = {label.at("at")[0], label.at("at")[1]},
+                                    .text = label.at("text"),
+                                    .size = label.at("size"),
+                                    .align = static_cast<Align>(label.at("align").get<int>())});
+    keep_legible(small, OverlayArea({400, 300}));
+    return small.labels;
+}
+
+// 9 pixels are 14.4 units.
+TEST(JumpDemo, TheRatesOfItsSliderAreLegibleInASmallWindow) {
+    int rates = 0;
+    for (const Label& label : small_labels(pictures_of("jump --quiet", 1).at(0))) {
+        if (label.at.y != 20) continue;
+        EXPECT_GT(label.size, 14) << label.text;
+        ++rates;
+    }
+    EXPECT_EQ(rates, 12);
 }
 
 // The left ball has 60 Hz, the right one the rate of the run, whose result is there at once. The
@@ -147,6 +173,28 @@ TEST(IntegratorRace, NamesWhatTheTheoryOfEachMethodSays) {
     const double q = 2 * std::numbers::pi / 20;
     EXPECT_TRUE(holds(
         text, fmt::format("\n= keeps its energy within {:.2g} %\n", 100 * (1 / (1 - q / 2) - 1))));
+}
+
+// The rings of radius 9 are at most 60 units from the middle, 190.
+TEST(IntegratorRace, DistancesKeepFromTheRings) {
+    const Folder folder;
+    std::string script;
+    for (int i = 0; i < 4; ++i) script += fmt::format("{} press Left\n", i);
+    int left = 0, right = 0;
+    for (const auto& picture : pictures_of("integrator_race" + with_script(folder, script), 10))
+        for (const Label& label : small_labels(picture)) {
+            const float width = wider_letters * text_width(label.text, label.size);
+            if (label.text.starts_with("◀ ")) {
+                EXPECT_LT(label.at.x + width, 190 - 69) << label.text;
+                ++left;
+            } else if (label.text.ends_with(" ▶")) {
+                EXPECT_EQ(label.align, Align::right);
+                EXPECT_GT(label.at.x - width, 190 + 69) << label.text;
+                EXPECT_LT(label.at.x, 366);
+                ++right;
+            }
+        }
+    EXPECT_GT(left + right, 4);
 }
 
 // The slider goes from 196 to 612 units of a canvas of 640 × 360; without a picture of its own, the

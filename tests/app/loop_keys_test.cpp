@@ -52,7 +52,23 @@ TEST(LoopKeys, ListsAndHelpNameAll) {
               "F8 faster, F9 restart, F11 full screen, Escape quit");
     EXPECT_EQ(help_on_loop_keys(true).size(), loop_keys().size());
     EXPECT_EQ(help_on_loop_keys(true).back().name, "Escape");
-    EXPECT_EQ(help_on_loop_keys(false).back().name, "F11") << "the game uses Escape";
+    EXPECT_EQ(help_on_loop_keys(true).back().text, "close this, then quit");
+    EXPECT_EQ(help_on_loop_keys(false).back().text, "close this help") << "the game uses Escape";
+}
+
+TEST(LoopKeys, EscapeClosesTheHelpBeforeItQuits) {
+    Requests requests;
+    Panels panels{.help = true};
+    InputQueue queue;
+    queue.set(Key::w, true);
+    add_requests(requests, panels, queue.take({}));
+    EXPECT_TRUE(panels.help) << "another key";
+    queue.set(Key::escape, true);
+    add_requests(requests, panels, queue.take({}));
+    EXPECT_FALSE(panels.help);
+    EXPECT_FALSE(requests.quits);
+    add_requests(requests, panels, queue.take({}));
+    EXPECT_FALSE(requests.quits) << "it is held";
 }
 
 /// The first two cells of the rows below "## Keys".

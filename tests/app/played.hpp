@@ -44,19 +44,26 @@ inline nlohmann::json report_of(const std::string& command) {
     return nlohmann::json::parse(shell(command + " --json -").out);
 }
 
-/// The texts on each frame of a film at one frame per second, joined.
-inline std::vector<std::string> texts_of(const std::string& command, int frames) {
+/// The pictures of a film at one frame per second.
+inline std::vector<nlohmann::json> pictures_of(const std::string& command, int frames) {
     const Folder folder;
     const std::string out = (folder / "film").string();
     const Outcome run =
         shell(command + " --headless --fps 1 --size 16x9 --frames " + std::to_string(frames) +
               " --out '" + out + "' && gzip -dc '" + out + "/frames.jsonl.gz'");
     std::istringstream lines(run.out);
+    std::vector<nlohmann::json> pictures;
+    for (std::string line; std::getline(lines, line);)
+        pictures.push_back(nlohmann::json::parse(line).at("picture"));
+    return pictures;
+}
+
+/// The texts on each frame of a film at one frame per second, joined.
+inline std::vector<std::string> texts_of(const std::string& command, int frames) {
     std::vector<std::string> texts;
-    for (std::string line; std::getline(lines, line);) {
-        const auto frame = nlohmann::json::parse(line);
+    for (const nlohmann::json& picture : pictures_of(command, frames)) {
         std::string joined;
-        for (const auto& label : frame.at("picture").at("labels"))
+        for (const auto& label : picture.at("labels"))
             joined += label.at("text").get<std::string>() + "\n";
         texts.push_back(joined);
     }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Runs a demo in a real window: pause freezes the picture, a single step changes it, F4 takes it back,
-# F1 opens the inspector, F2 shows a help, Escape quits with exit code 0, and --frames N quits after N
+# F1 opens the inspector, F2 shows a help, Escape closes it and then quits with exit code 0, and --frames N quits after N
 # frames. A closed window leaves with 0, a killed server with 3 and complete files.
 # Usage: window_test.sh PROGRAM TITLE. Exit 77:
 # Xvfb or xdotool is not installed.
@@ -70,6 +70,10 @@ xdotool key F2
 until_true stands_still || fail "the game plays on below the help"
 xdotool key F2
 until_true moves || fail "the game does not go on when the help is closed"
+xdotool key F2
+until_true stands_still || fail "the game plays on below the second help"
+xdotool key Escape
+until_true moves || fail "Escape does not close the help"
 xdotool keydown F4
 until_true stands_still || fail "holding F4 does not end at the start of the game"
 xdotool keyup F4

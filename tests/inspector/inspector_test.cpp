@@ -190,6 +190,23 @@ TEST(Inspector, StepsInAPauseAndKeepsAFixedSetting) {
     EXPECT_FALSE(any(all, [](const Requests& one) { return one.stepping.has_value(); }));
 }
 
+// A game with settings of its own: no other one is shown.
+TEST(Inspector, HidesASettingThatIsNotThatOfThePicture) {
+    const auto points = [](const char* method, std::int64_t rate, bool hides_setting) {
+        Inspected run = run_at_60_hz();
+        run.stepping = {.method = &find_method(method), .rate = {rate}};
+        run.verdict = "7.5 cm off at " + std::to_string(rate) + " Hz";
+        run.fixed = "The slider in the picture sets the rate of all lanes.";
+        run.hides_setting = hides_setting;
+        Inspector inspector(Renderer::font());
+        for (int i = 0; i < 3; ++i) (void)inspector.show(run, {}, frame, 1.0 / 60);
+        return inspector.overlay().vertices.size();
+    };
+    EXPECT_NE(points("rk4", 60, false), points("semi_implicit_euler", 240, false));
+    EXPECT_EQ(points("rk4", 60, true), points("semi_implicit_euler", 240, true));
+    EXPECT_LT(points("rk4", 60, true), points("rk4", 60, false));
+}
+
 // A drag along the time line asks for each step in turn, as long as it is held.
 TEST(Inspector, GoesToStepsOfThePast) {
     Inspected run = run_at_60_hz();

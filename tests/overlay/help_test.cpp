@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "oiler/picture/palette.hpp"
+#include "oiler/picture/text.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -16,10 +17,17 @@ constexpr Action nothing{"nothing"};
 constexpr Control controls[] = {fire, aim, brake, nothing};
 
 std::vector<HelpRow> loop_keys() {
-    return {{"F1", "inspector"},    {"F2", "close this help"}, {"F3", "pause, resume"},
-            {"F4", "go back"},      {"F5", "step in a pause"}, {"F6", "errors ×10"},
-            {"F7", "slower"},       {"F8", "faster"},          {"F9", "restart"},
-            {"F11", "full screen"}, {"Escape", "quit"}};
+    return {{"F1", "inspector"},
+            {"F2", "close this help"},
+            {"F3", "pause, resume"},
+            {"F4", "go back"},
+            {"F5", "step in a pause"},
+            {"F6", "errors ×10"},
+            {"F7", "slower"},
+            {"F8", "faster"},
+            {"F9", "restart"},
+            {"F11", "full screen"},
+            {"Escape", "close this, then quit"}};
 }
 
 std::string on_azerty(Button button) { return button == Button(Key::q) ? "A" : name_of(button); }
@@ -77,6 +85,41 @@ TEST(Help, FitsASmallWindow) {
     std::ranges::sort(rows, std::greater<>());
     for (std::size_t i = 1; i < rows.size(); ++i)
         EXPECT_TRUE(rows[i - 1] == rows[i] || rows[i - 1] - rows[i] >= 17.6F) << "lines touch";
+}
+
+/// The title of a help as its lines show it, from the first label to that of the first control.
+std::string title_in(const Picture& picture) {
+    std::string title;
+    for (const Label& label : picture.labels) {
+        if (label.text == "fire") break;
+        title += (title.empty() ? "" : " ") + label.text;
+    }
+    return title;
+}
+
+// 400 pixels are 640 units at 4:3 and at 16:9.
+TEST(Help, ALongTitleIsSeenWhole) {
+    const std::string sentence =
+        "The same force on two springs: left at resonance, right at twice that frequency – "
+        "assets/scenes/drive.toml";
+    for (const std::string& title : {sentence, sentence + " " + sentence, std::string(70, 'n')})
+        for (const Size size : {Size{1280, 720}, {400, 300}, {640, 360}}) {
+            Picture picture;
+            add_help(picture, OverlayArea(size), title, controls, on_azerty, loop_keys());
+            EXPECT_EQ(title_in(picture), title);
+            const auto control = std::ranges::find(picture.labels, "fire", &Label::text);
+            for (auto line = picture.labels.begin(); line != control; ++line) {
+                EXPECT_LE(line->at.x + 1.06F * text_width(line->text, line->size), 640)
+                    << size.width << ' ' << line->text;
+                EXPECT_GE(line->at.y - (line + 1)->at.y, 1.2F * line->size) << "lines touch";
+            }
+        }
+}
+
+TEST(Help, AWindowMayBeSmallerThanALetter) {
+    Picture picture;
+    add_help(picture, OverlayArea({8, 6}), "Cannon", controls, on_azerty, loop_keys());
+    EXPECT_TRUE(shows(picture, "Cannon"));
 }
 
 TEST(Help, ALongListFitsTheCanvas) {

@@ -157,17 +157,20 @@ struct Empty {
     explicit Empty(const Settings& settings) : world(1, settings) {}
 };
 
-// A frame counts as 1/32 of the mean. The time of steps and picture is 224 ms, of which 96 ms are
-// of update and step.
+// A frame counts as 1/32 of the mean, and a game without bodies says so. The time of steps and
+// picture is 224 ms, of which 96 ms are of update and step.
 TEST(GameInspector, ShowsThePartsOfAFrame) {
     using namespace std::chrono_literals;
     constexpr Size size{1280, 720};
     AnyGameOf<Empty> game{Settings{}};
-    GameInspector inspector(game, "", Renderer::font());
+    GameInspector inspector(game, {}, Renderer::font());
     inspector.add_times({.update = 32'000'000, .step = 64'000'000}, 224ms, 256ms);
     (void)inspector.show(nullptr, {}, size, size, {});
     Inspector expected(Renderer::font());
     const Inspected run{.stepping = game.world().settings().stepping,
+                        .verdict =
+                            "The world of this game has no bodies whose error could be "
+                            "measured.",
                         .costs = {.update = 1e6, .step = 2e6, .picture = 4e6, .draw = 8e6}};
     (void)expected.show(run, {}, size, 0);
     EXPECT_TRUE(std::ranges::equal(inspector.overlay().vertices, expected.overlay().vertices, {},

@@ -66,7 +66,7 @@ TEST_F(Sdl2Events, OfTheMouseReachTheGameUnlessItIsTheLoops) {
     wheel.type = SDL_MOUSEWHEEL;
     wheel.wheel.y = 2;
     const auto handle = [&](const SDL_Event& event, bool is_of_game) {
-        events_.handle(event, {1280, 720}, queue_, loop_, is_of_game);
+        events_.handle(event, {1280, 720}, queue_, loop_, {.mouse = is_of_game});
     };
     handle(button(true), false);
     handle(wheel, false);
@@ -98,6 +98,21 @@ TEST_F(Sdl2Events, AreKeysByTheirPlace) {
     EXPECT_FALSE(input.held(Key::f3));
     EXPECT_TRUE(step({key(SDL_SCANCODE_ESCAPE, true)}).pressed(Key::escape));
     EXPECT_TRUE(loop_.take({}).pressed(Key::escape));
+}
+
+TEST_F(Sdl2Events, KeepEscapeForTheLoopBelowAHelp) {
+    const auto handle = [&](SDL_Scancode code, bool down) {
+        events_.handle(key(code, down), {1280, 720}, queue_, loop_, {.escape = false});
+    };
+    (void)step({key(SDL_SCANCODE_ESCAPE, true)});
+    handle(SDL_SCANCODE_ESCAPE, false);
+    EXPECT_TRUE(queue_.take({}).released(Key::escape)) << "it was pressed before the help";
+    handle(SDL_SCANCODE_ESCAPE, true);
+    handle(SDL_SCANCODE_W, true);
+    const Input game = queue_.take({});
+    EXPECT_FALSE(game.held(Key::escape));
+    EXPECT_TRUE(game.held(Key::w));
+    EXPECT_TRUE(loop_.take({}).held(Key::escape));
 }
 
 TEST_F(Sdl2Events, ReleaseAllWhenTheWindowLosesTheKeyboard) {

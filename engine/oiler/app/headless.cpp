@@ -63,6 +63,13 @@ Manifest describe(const GameRun& run, const Surface& surface, const Renderer& re
             .planned_frames = options.frames ? *options.frames : frames_in(duration_of(run), fps)};
 }
 
+GameInspector::Fixed fixed_in_film(const About& about) {
+    const bool hides_setting = !about.fixed_setting.empty();
+    return {
+        .reason = std::string(hides_setting ? about.fixed_setting : "F1 in a window changes them."),
+        .hides_setting = hides_setting};
+}
+
 /// The inspector of a headless run. It gets no mouse input and waits for the runs that play along.
 class FilmedInspector {
 public:
@@ -70,7 +77,7 @@ public:
         : what_if_({run.options.settings, run.options.controls}, run.make, LiveWhatIf::Pace::own),
           inputs_(run.inputs, what_if_),
           profile_(run.profile),
-          inspector_(run.playback.game(), "F1 in a window changes them.", Renderer::font()) {
+          inspector_(run.playback.game(), fixed_in_film(run.about), Renderer::font()) {
         what_if_.start(0);
     }
 

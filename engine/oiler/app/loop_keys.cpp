@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <utility>
 
 namespace oiler {
 
@@ -32,8 +33,10 @@ std::span<const LoopKey> loop_keys() {
                 [](const KeyUse& use) { use.requests.restarts |= use.pressed(); }},
         LoopKey{Key::f11, "full screen", "full screen",
                 [](const KeyUse& use) { use.panels.full_screen ^= use.toggles(); }},
-        LoopKey{Key::escape, "quit", "quit",
-                [](const KeyUse& use) { use.requests.quits |= use.pressed(); }},
+        LoopKey{Key::escape, "quit", "close this, then quit",
+                [](const KeyUse& use) {
+                    use.requests.quits |= use.pressed() && !std::exchange(use.panels.help, false);
+                }},
     };
     return keys;
 }
@@ -46,8 +49,8 @@ void add_requests(Requests& requests, Panels& panels, const Input& keys) {
 std::vector<HelpRow> help_on_loop_keys(bool escape_quits) {
     std::vector<HelpRow> rows;
     for (const LoopKey& one : loop_keys())
-        if (escape_quits || one.key != Key::escape)
-            rows.push_back({name_of(one.key), std::string(one.text)});
+        rows.push_back({name_of(one.key), std::string(one.text)});
+    if (!escape_quits) rows.back().text = "close this help";
     return rows;
 }
 

@@ -46,7 +46,7 @@ struct LoopKey {
 /// Adds the requests that the player makes with the keys of the loop.
 void add_requests(Requests& requests, Panels& panels, const Input& keys);
 
-/// The rows of the help, with Escape if it quits.
+/// The rows of the help. Escape closes the help, and quits unless the game uses it.
 [[nodiscard]] std::vector<HelpRow> help_on_loop_keys(bool escape_quits);
 
 /// "F1 inspector, F2 help, …": the first `count` keys of the loop.

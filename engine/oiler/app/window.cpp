@@ -61,7 +61,10 @@ GameWindow::GameWindow(GameRun& run)
       opened_size_(window_->size()),
       renderer_([this](const char* name) { return window_->procedure(name); }),
       play_(run),
-      inspector_(run.playback.game(), why_fixed(run.options, run.about), Renderer::font()),
+      inspector_(run.playback.game(),
+                 {.reason = why_fixed(run.options, run.about),
+                  .hides_setting = !run.about.fixed_setting.empty()},
+                 Renderer::font()),
       panels_{.inspector = run.options.inspector},
       last_frame_(time_now()) {
     remark(run.options.quiet, "drawing with {} ({}): {}{}", window_->provider(),
@@ -77,7 +80,8 @@ bool GameWindow::frame(std::chrono::nanoseconds now) {
         window_->poll(run_.live.queue, keys_,
                       {.width = parts.share(&Size::width),
                        .height = parts.share(&Size::height),
-                       .mouse = !panels_.inspector || !inspector_.has_mouse()});
+                       .mouse = !panels_.inspector || !inspector_.has_mouse(),
+                       .escape = !panels_.help});
     is_lost_ = state == Window::State::lost;
     if (is_lost_) return false;
     const Input keys = keys_.take({});

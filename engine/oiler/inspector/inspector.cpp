@@ -141,17 +141,17 @@ struct Inspector::Impl {
         ImGui::BeginDisabled(!run.fixed.empty());
         show_damping(chosen);
         ImGui::EndDisabled();
-        if (!run.fixed.empty()) wrapped(run.fixed);
-        if (run.most_threads > 1) {
-            int threads = run.threads;
-            ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
-            ImGui::SliderInt("##threads", &threads, 1, run.most_threads, "",
-                             ImGuiSliderFlags_NoInput);
-            ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-            text(fmt::format("{} thread{}", run.threads, run.threads == 1 ? "" : "s"));
-            if (threads != run.threads) requests.threads = threads;
-        }
         if (chosen != run.stepping) requests.stepping = chosen;
+    }
+
+    static void show_threads(const Inspected& run, Requests& requests) {
+        if (run.most_threads == 1) return;
+        int threads = run.threads;
+        ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
+        ImGui::SliderInt("##threads", &threads, 1, run.most_threads, "", ImGuiSliderFlags_NoInput);
+        ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+        text(fmt::format("{} thread{}", run.threads, run.threads == 1 ? "" : "s"));
+        if (threads != run.threads) requests.threads = threads;
     }
 
     /// Where a splitting puts damping; other methods have no choice.
@@ -434,13 +434,19 @@ Requests Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, d
     ImGui::SetNextWindowSize({panel, static_cast<float>(frame.height)});
     ImGui::Begin("Inspector", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
-    Impl::show_verdict(run);
-    impl_->show_setting(run, mouse.escapes, requests);
+    if (!run.hides_setting) {
+        Impl::show_verdict(run);
+        impl_->show_setting(run, mouse.escapes, requests);
+    }
+    if (!run.fixed.empty()) wrapped(run.fixed);
+    Impl::show_threads(run, requests);
     impl_->show_controls(run, requests);
     Impl::show_state(run);
     impl_->show_overlays(run);
-    Impl::show_settings(run, requests);
-    Impl::show_gauge(run);
+    if (!run.hides_setting) {
+        Impl::show_settings(run, requests);
+        Impl::show_gauge(run);
+    }
     Impl::show_costs(run);
     Impl::show_energy(run);
     ImGui::End();

@@ -74,6 +74,7 @@ struct Inspected {
     Stepping stepping{};
     std::span<const Method* const> methods{};  ///< those that can step the bodies
     std::string fixed{};                       ///< why the setting cannot be changed; empty: it can
+    bool hides_setting = false;                ///< the picture has others: only `fixed` is shown
     std::string verdict{};                     ///< on the error of the timestep
     Colour grade{};                            ///< of the verdict
     std::vector<Setting> settings{};           ///< the run's own first; empty: nothing is known

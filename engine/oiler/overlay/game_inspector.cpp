@@ -94,7 +94,7 @@ void add_measured(Inspected& run, const LiveFigures& figures) {
 
 }  // namespace
 
-GameInspector::GameInspector(AnyGame& game, std::string fixed, std::span<const char> font)
+GameInspector::GameInspector(AnyGame& game, Fixed fixed, std::span<const char> font)
     : game_(game), fixed_(std::move(fixed)), inspector_(font) {}
 
 void GameInspector::begin_game() {
@@ -182,7 +182,8 @@ Requests GameInspector::show(const LiveFigures* figures, const Input& mouse, Siz
     const Energy energy = world.energy();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,
-                  .fixed = fixed_,
+                  .fixed = fixed_.reason,
+                  .hides_setting = fixed_.hides_setting,
                   .stiffest = stiffest_,
                   .costs = costs_,
                   .energy = energy.total(),
@@ -209,6 +210,8 @@ Requests GameInspector::show(const LiveFigures* figures, const Input& mouse, Siz
     if (follower_.followed()) run.followed = figures_of(*follower_.followed());
     const Verdict verdict = is_measured ? figures->verdict : Verdict{.text = frame.no_verdict};
     run.verdict = verdict.text;
+    if (run.verdict.empty() && run.bodies == 0)
+        run.verdict = "The world of this game has no bodies whose error could be measured.";
     run.grade = colour_of(verdict.grade);
     if (is_measured) add_measured(run, *figures);
     const Requests requests =

@@ -32,8 +32,12 @@ public:
         bool waits = false;                  ///< until all values are known
     };
 
-    /// `fixed` tells why the setting cannot be changed; empty: it can.
-    GameInspector(AnyGame& game, std::string fixed, std::span<const char> font);
+    /// Whether the setting can be changed.
+    struct Fixed {
+        std::string reason{};        ///< why it cannot; empty: it can
+        bool hides_setting = false;  ///< the picture has others: only `reason` is shown
+    };
+    GameInspector(AnyGame& game, Fixed fixed, std::span<const char> font);
 
     /// Forgets the methods and the followed body of the last game.
     void begin_game();
@@ -60,7 +64,7 @@ private:
     void find_stiffest(bool waits);
 
     AnyGame& game_;
-    std::string fixed_;
+    Fixed fixed_;
     Inspector inspector_;
     StiffestFinder finder_;  ///< used by the thread of finding_
     std::future<std::optional<Stiffest>> finding_;

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "oiler/overlay/legible.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/picture/text.hpp"
 #include "oiler/picture/theme.hpp"
 
 namespace oiler {
@@ -16,7 +18,7 @@ namespace {
 constexpr float line_height = 1.4F;   ///< of the size
 constexpr float letter_width = 0.6F;  ///< of the size, of the font's usual letters
 constexpr std::size_t longest_name = 20;
-constexpr float letters_of_loop_keys = 27;
+constexpr float letters_of_loop_keys = 29;
 constexpr float least_letters_beside = 80;  ///< in an area with two columns
 
 /// A sheet of paper over the whole area; little shines through.
@@ -50,6 +52,29 @@ std::vector<std::string> broken(std::string text, std::size_t most) {
     lines.push_back(std::move(text));
     return lines;
 }
+
+/// A title in as many lines as it takes, smaller if those are many.
+struct Title {
+    static constexpr std::size_t most_lines = 2;
+
+    Title(const std::string& text, float largest, float room) : size(largest) {
+        constexpr float least = 1.0F / 16;  // of the largest; a window may be smaller than a letter
+        while (!fits(text, room) && size > least * largest) size *= 0.95F;
+    }
+    [[nodiscard]] float height() const {
+        return line_height * size * static_cast<float>(lines.size());
+    }
+    bool fits(const std::string& text, float room) {
+        const auto most = static_cast<std::size_t>(std::max(1.0F, room / (letter_width * size)));
+        lines = broken_at_spaces(text, most);
+        return lines.size() <= most_lines && std::ranges::all_of(lines, [&](const auto& one) {
+                   return wider_letters * text_width(one, size) <= room;
+               });
+    }
+
+    std::vector<std::string> lines;
+    float size;
+};
 
 /// Rows for the controls; a long list of buttons takes several rows, the first one with the name.
 std::vector<HelpRow> rows_of(std::span<const Control> controls, const NameButton& name,
@@ -125,7 +150,8 @@ void add_help(Picture& overlay, const OverlayArea& area, std::string_view title,
     const float margin = (is_wide ? 3 : 1) * largest;
     const float left = area.low.x + margin;
     const float top = area.high.y - 3 * largest;
-    const float first_row = top - 2 * largest;
+    const Title heading(std::string(title), 1.35F * largest, area.high.x - margin - left);
+    const float first_row = top - heading.height() - 0.11F * largest;
     const float text_x = left + letter * static_cast<float>(longest_of(controls));
     const float loop_x = area.high.x - letters_of_loop_keys * letter;
     const float end = is_wide ? loop_x : area.high.x - margin;
@@ -138,7 +164,10 @@ void add_help(Picture& overlay, const OverlayArea& area, std::string_view title,
     const std::size_t count = rows.size() + (is_wide ? 0 : loop_keys.size());
     const float size = std::min(largest, (first_row - area.low.y - 2 * largest) / line_height /
                                              static_cast<float>(std::max<std::size_t>(count, 1)));
-    overlay.labels.push_back(label({left, top}, std::string(title), 1.35F * largest, theme.ink));
+    for (float y = top; const std::string& line : heading.lines) {
+        overlay.labels.push_back(label({left, y}, line, heading.size, theme.ink));
+        y -= line_height * heading.size;
+    }
     List{{left, first_row}, text_x, size}.add(overlay, rows);
     if (is_wide) {
         List{{loop_x, first_row}, loop_x + 8 * letter, largest}.add(overlay, loop_keys);

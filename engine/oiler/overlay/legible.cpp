@@ -18,8 +18,7 @@ constexpr float most_growth = 2;
 // From the baseline, of the size, with some of the gap between two lines.
 constexpr float above_baseline = 0.8F;
 constexpr float below_baseline = 0.25F;
-constexpr float least_space = 0.3F;     // of the size, between two texts of a line
-constexpr float wider_letters = 1.06F;  // than estimated: no text is cut
+constexpr float least_space = 0.3F;  // of the size, between two texts of a line
 
 /// The reach of a label from its anchor, units of the canvas, and the growth that it would have
 /// alone. Or the swatch of a legend, which does not grow.

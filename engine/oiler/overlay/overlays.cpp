@@ -29,19 +29,6 @@ void add_sheet(Picture& picture, Point centre, Point size, Colour colour) {
                                 .layer = overlay_layer});
 }
 
-/// Lines of at most `most` bytes, broken at spaces.
-std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
-    std::vector<std::string> lines(1);
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        if (!lines.back().empty() && lines.back().size() + 1 + word.size() > most)
-            lines.emplace_back();
-        if (!lines.back().empty()) lines.back() += ' ';
-        lines.back() += word;
-    }
-    return lines;
-}
-
 void add_label(Picture& picture, Point at, std::string text, float size, Colour colour,
                Align align) {
     picture.labels.push_back({.at = at,
@@ -85,7 +72,8 @@ struct Band {
             return static_cast<std::size_t>(std::max(1.0F, room / letter(text_size)));
         };
         const float beside_hint = width - letter(text_size) * static_cast<float>(hint.size() + 2);
-        std::vector<std::string> found = wrapped(text, most(lines > 1 ? width : beside_hint));
+        std::vector<std::string> found =
+            broken_at_spaces(text, most(lines > 1 ? width : beside_hint));
         if (found.size() == lines && lines > 1 && found.back().size() > most(beside_hint))
             found.emplace_back();  // one too many: the text does not fit
         return found;
@@ -110,6 +98,18 @@ OverlayArea::OverlayArea(Size size)
 }
 
 float OverlayArea::legible(float size) const { return std::max(size, least_font_pixels / pixels); }
+
+std::vector<std::string> broken_at_spaces(const std::string& text, std::size_t most) {
+    std::vector<std::string> lines(1);
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (!lines.back().empty() && lines.back().size() + 1 + word.size() > most)
+            lines.emplace_back();
+        if (!lines.back().empty()) lines.back() += ' ';
+        lines.back() += word;
+    }
+    return lines;
+}
 
 void add_note(Picture& overlay, Point at, std::string text, float size, Align align) {
     const Theme& theme = theme_of(overlay.background);
@@ -177,7 +177,7 @@ void add_notice(Picture& overlay, const OverlayArea& area, const Notice& notice)
     const auto add = [&](const std::string& text, float of_line, Colour colour) {
         if (text.empty()) return;
         const float letters = std::clamp(room / (overlay_letter_width * of_line), 10.0F, 100.0F);
-        for (std::string& line : wrapped(text, static_cast<std::size_t>(letters)))
+        for (std::string& line : broken_at_spaces(text, static_cast<std::size_t>(letters)))
             lines.push_back({std::move(line), of_line, colour});
     };
     add(notice.heading, 1.3F * size, theme.ink);

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "oiler/core/size.hpp"
 #include "oiler/picture/picture.hpp"
@@ -25,6 +26,9 @@ struct OverlayArea {
     Point high;    ///< upper right corner
     float pixels;  ///< of a unit
 };
+
+/// Lines of at most `most` bytes, broken at spaces. A longer word has a line of its own.
+[[nodiscard]] std::vector<std::string> broken_at_spaces(const std::string& text, std::size_t most);
 
 // The colours of what is added follow the background of the picture that it is added to.
 

@@ -67,11 +67,11 @@ SdlEvents::~SdlEvents() {
 }
 
 void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop,
-                       bool mouse_is_of_game) {
+                       const Window::OfGame& of_game) {
     switch (event.type) {
         case SDL_KEYDOWN:
         case SDL_KEYUP:
-            return handle_key(event.key, game, loop);
+            return handle_key(event.key, game, loop, of_game.escape);
         case SDL_TEXTINPUT:
             return game.enter(event.text.text);
         case SDL_MOUSEMOTION:
@@ -80,7 +80,7 @@ void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, In
         case SDL_MOUSEWHEEL:
             handle_mouse(
                 event, window, game,
-                mouse_is_of_game && (event.type == SDL_MOUSEWHEEL || x_of(event) < window.width));
+                of_game.mouse && (event.type == SDL_MOUSEWHEEL || x_of(event) < window.width));
             return handle_mouse(event, window, loop, true);
         case SDL_WINDOWEVENT:
             if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) {
@@ -108,8 +108,8 @@ void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, In
     }
 }
 
-void SdlEvents::handle_key(const SDL_KeyboardEvent& event, InputQueue& game,
-                           InputQueue& loop) const {
+void SdlEvents::handle_key(const SDL_KeyboardEvent& event, InputQueue& game, InputQueue& loop,
+                           bool escape_is_of_game) const {
     if (event.repeat != 0) return;
     const auto code = static_cast<std::uint32_t>(event.keysym.scancode);
     if (code >= 256) return;
@@ -119,6 +119,7 @@ void SdlEvents::handle_key(const SDL_KeyboardEvent& event, InputQueue& game,
     loop.set(*button, down);
     if (is_of_loop(*button)) return;
     if (text_ && down && !edits_text(*button)) return;
+    if (!escape_is_of_game && down && *button == Button(Key::escape)) return;
     game.set(*button, down);
 }
 

@@ -47,9 +47,10 @@ public:
         float width = 1;   ///< the share with the canvas, at the left
         float height = 1;  ///< the share with the canvas, at the bottom
         bool mouse = true;
+        bool escape = true;
     };
-    /// Hands events since the last call to the loop, and all but F1 to F12 to the game. A mouse
-    /// that is not the game's only releases buttons there.
+    /// Hands events since the last call to the loop, and all but F1 to F12 to the game. A mouse or
+    /// Escape that is not the game's only releases buttons there.
     [[nodiscard]] virtual State poll(InputQueue& game, InputQueue& loop, const OfGame& of_game) = 0;
     /// The file that was dropped on the window since the last call, the last one of several.
     [[nodiscard]] virtual std::optional<std::string> take_dropped() = 0;
