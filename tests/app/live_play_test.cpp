@@ -433,18 +433,21 @@ struct Falling {
 template <bool changes>
 struct PlayInThePast {
     PlayInThePast() {
-        frame();
-        do frame();
-        while (play.verdict().grade == Verdict::Grade::unknown);
+        for (int i = 0; i < 5; ++i) frame();
+        while (play.verdict().grade == Verdict::Grade::unknown) show();
         known = play.verdict().text;
         for (int i = 0; i < 3; ++i) frame({.rewinds = true});
     }
-    /// Leaves time to the runs that play along.
     void frame(const Requests& requests = {}) {
+        time += std::chrono::milliseconds(100);
+        show(requests);
+    }
+    /// Leaves time to the runs that play along.
+    void show(const Requests& requests = {}) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         play.measure();
         play.control(requests, false);
-        (void)play.play(time += std::chrono::milliseconds(100));
+        (void)play.play(time);
     }
 
     Options options = at_10_hz();
