@@ -3,6 +3,8 @@
 // test has its own clock.
 #include "oiler/app/live_play.hpp"
 
+#include <fmt/core.h>
+
 #include <atomic>
 #include <thread>
 
@@ -275,10 +277,11 @@ TEST_F(LivePlayTest, TellsWhyASettingIsImpossible) {
 /// Asks for 20 Hz in its fifth step.
 struct Switch {
     static constexpr About about{.name = "switch", .title = "Switch", .rate = 10};
+    static inline std::int64_t wanted = 20;  // Hz
     World world;
     explicit Switch(const Settings& settings) : world(1, settings) {}
     void update(const Input&, Loop& loop) {
-        if (world.tick() == 4) loop.change_rate(20);
+        if (world.tick() == 4) loop.change_rate(wanted);
     }
     [[nodiscard]] Picture picture() const { return {}; }
 };
@@ -334,6 +337,19 @@ TEST(GamesThatChangeTheirRate, KeepAFixedOneAndAreToldWhy) {
     EXPECT_EQ(fixed.rate(), 10);
     EXPECT_EQ(fixed.game.world().tick(), 10);
     EXPECT_EQ(fixed.play.complaint(), "--record keeps this setting.");
+}
+
+TEST(GamesThatChangeTheirRate, AreToldWhatNoRateIs) {
+    Options options;
+    options.quiet = true;
+    for (const std::int64_t wrong : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1'000'001}}) {
+        Switch::wanted = wrong;
+        const SwitchedPlay kept{options};
+        EXPECT_EQ(kept.rate(), 10);
+        EXPECT_EQ(kept.play.complaint(),
+                  fmt::format("the game asks for {} Hz; a rate is from 1 to 1000000 Hz", wrong));
+    }
+    Switch::wanted = 20;
 }
 
 // Before any step was timed, a frame that took long may be followed by no more than two steps.

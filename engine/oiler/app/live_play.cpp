@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "oiler/core/step_clock.hpp"
+
 namespace oiler {
 namespace {
 
@@ -124,6 +126,9 @@ void LivePlay::change_to(const Stepping& stepping, bool from_start) {
 void LivePlay::change_rate(std::int64_t hertz) {
     const std::string fixed = why_fixed(run_.options, run_.about);
     if (!fixed.empty()) return complain(fixed);
+    if (hertz < 1 || hertz > StepClock::largest_rate)
+        return complain(fmt::format("the game asks for {} Hz; a rate is from 1 to {} Hz", hertz,
+                                    StepClock::largest_rate));
     Stepping stepping = playback_.world().settings().stepping;
     if (stepping.rate == Rate{hertz}) return;
     stepping.rate = {hertz};
@@ -190,10 +195,9 @@ void LivePlay::restart() {
 }
 
 void LivePlay::measure() {
-    if (!what_if_ || !has_shown_ || std::exchange(measures_, true)) return;
-    if (!run_.about.fixed_setting.empty())
-        what_if_->stop("");
-    else if (playback_.steps() == 0)
+    if (!what_if_ || !has_shown_ || !run_.about.fixed_setting.empty()) return;
+    if (std::exchange(measures_, true)) return;
+    if (playback_.steps() == 0)
         what_if_->start(0);
     else
         measure_from_here();
