@@ -109,7 +109,8 @@ struct JumpRates {
                                  .rate = 240,
                                  .duration = show,
                                  .controls = controls,
-                                 .changes_in_play = false};
+                                 .changes_in_play = false,
+                                 .has_line = false};  // it would speak of one lane
 
     World world;
     Player player;

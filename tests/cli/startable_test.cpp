@@ -59,7 +59,12 @@ INSTANTIATE_TEST_SUITE_P(Signals, EndOfMenu, testing::Values(SIGINT, SIGTERM, SI
 TEST(RunAndWait, ReturnsTheExitCode) {
     EXPECT_EQ(run_and_wait(shell("exit 5")), 5);
     EXPECT_EQ(run_and_wait(shell("kill -9 $$")), 128 + 9);
-    EXPECT_EQ(run_and_wait({.name = "", .sentence = "", .command = {"/no/such/program"}}), 127);
+    EXPECT_EQ(line_of_error(Exit::io,
+                            [] {
+                                (void)run_and_wait(
+                                    {.name = "", .sentence = "", .command = {"/no/such/program"}});
+                            }),
+              "cannot start /no/such/program: No such file or directory");
 }
 
 }  // namespace

@@ -170,6 +170,7 @@ void become(const Startable& one, const std::vector<std::string>& arguments) {
 int run_and_wait(const Startable& one) {
     std::vector<std::string> words = one.command;
     const std::vector<char*> arguments = pointers_to(words);
+    if (access(arguments.front(), X_OK) != 0) fail_to_start(one, errno);
     const pid_t here = getpid();
     const pid_t child = fork();
     if (child < 0) fail_to_start(one, errno);

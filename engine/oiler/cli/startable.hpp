@@ -50,8 +50,8 @@ struct Startable {
 
 /// Replaces this process by the program, with further arguments. Throws Error{io} if that fails.
 [[noreturn]] void become(const Startable& one, const std::vector<std::string>& arguments);
-/// Runs the program and returns its exit code, 127 if it cannot be executed. It ends when this
-/// process ends or is interrupted. Throws Error{io} if that fails.
+/// Runs the program and returns its exit code. It ends when this process ends or is interrupted.
+/// Throws Error{io} if it cannot be started.
 int run_and_wait(const Startable& one);
 
 }  // namespace oiler::cli
