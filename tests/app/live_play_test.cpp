@@ -118,17 +118,43 @@ struct Walk {
     }
 };
 
-/// A walk at 10 Hz, a step a frame.
-class LivePlayTest : public testing::Test {
-protected:
-    LivePlayTest() { frame(); }  // it starts the clock
+/// A game that a player controls, without a window.
+template <class G>
+struct Live {
+    explicit Live(Options given) : options(std::move(given)) {}
 
-    static Options quiet() {
-        Options options;
-        options.settings.stepping.rate = {10};
-        options.quiet = true;
-        return options;
-    }
+    Options options;
+    MakeGame make = [](const Settings& settings) {
+        return std::make_unique<AnyGameOf<G>>(settings);
+    };
+    AnyGameOf<G> game{options.settings};
+    TraceWriter none{{}, {}, game.world()};
+    Playback playback{game, none, Keep::nothing};
+    LiveInput live;
+    GameRun run{.options = options,
+                .about = G::about,
+                .make = make,
+                .playback = playback,
+                .live = live,
+                .inputs = live};
+    LivePlay play{run};
+};
+
+Options at_10_hz(Options options = {}) {
+    options.settings.stepping.rate = {10};
+    return options;
+}
+Options quiet_at_10_hz() {
+    Options options;
+    options.quiet = true;
+    return at_10_hz(options);
+}
+
+/// A walk at 10 Hz, a step a frame.
+class LivePlayTest : public testing::Test, protected Live<Walk> {
+protected:
+    LivePlayTest() : Live(quiet_at_10_hz()) { frame(); }  // it starts the clock
+
     /// Shows a frame `period` after the last one. Returns where the body is drawn, m.
     float frame(const Requests& requests = {}) {
         play.set_pace(requests);
@@ -140,21 +166,6 @@ protected:
         for (int i = 0; i < count; ++i) frame();
     }
 
-    Options options = quiet();
-    MakeGame make = [](const Settings& settings) {
-        return std::make_unique<AnyGameOf<Walk>>(settings);
-    };
-    AnyGameOf<Walk> game{options.settings};
-    TraceWriter none{{}, {}, game.world()};
-    Playback playback{game, none, Keep::nothing};
-    LiveInput live;
-    GameRun run{.options = options,
-                .about = Walk::about,
-                .make = make,
-                .playback = playback,
-                .live = live,
-                .inputs = live};
-    LivePlay play{run};
     std::chrono::nanoseconds time{0};
     std::chrono::milliseconds period{100};
 };
@@ -286,36 +297,15 @@ struct Switch {
     [[nodiscard]] Picture picture() const { return {}; }
 };
 
-Options at_10_hz(Options options = {}) {
-    options.settings.stepping.rate = {10};
-    return options;
-}
-
 /// Plays ten frames of 0.1 s of a game at 10 Hz that asks for 20 Hz.
-struct SwitchedPlay {
-    explicit SwitchedPlay(const Options& given) : options(at_10_hz(given)) {
+struct SwitchedPlay : Live<Switch> {
+    explicit SwitchedPlay(const Options& given) : Live(at_10_hz(given)) {
         for (int i = 0; i <= 10; ++i) {
             play.control({}, false);
             (void)play.play(i * std::chrono::milliseconds(100));
         }
     }
     [[nodiscard]] std::int64_t rate() const { return game.world().settings().stepping.rate.steps; }
-
-    Options options;
-    MakeGame make = [](const Settings& settings) {
-        return std::make_unique<AnyGameOf<Switch>>(settings);
-    };
-    AnyGameOf<Switch> game{Settings{.stepping = {.rate = {10}}}};
-    TraceWriter none{{}, {}, game.world()};
-    Playback playback{game, none, Keep::nothing};
-    LiveInput live;
-    GameRun run{.options = options,
-                .about = Switch::about,
-                .make = make,
-                .playback = playback,
-                .live = live,
-                .inputs = live};
-    LivePlay play{run};
 };
 
 // The fifth step asks; the next frame shows the new game, and four more play it. That asks for the
@@ -447,8 +437,10 @@ struct Falling {
 
 /// Plays until there is a verdict, then goes back.
 template <bool changes>
-struct PlayInThePast {
-    PlayInThePast() {
+struct PlayInThePast : Live<Falling<changes>> {
+    using Live<Falling<changes>>::play;
+
+    PlayInThePast() : Live<Falling<changes>>(at_10_hz()) {
         for (int i = 0; i < 5; ++i) frame();
         while (play.verdict().grade == Verdict::Grade::unknown) show();
         known = play.verdict().text;
@@ -466,21 +458,6 @@ struct PlayInThePast {
         (void)play.play(time);
     }
 
-    Options options = at_10_hz();
-    MakeGame make = [](const Settings& settings) {
-        return std::make_unique<AnyGameOf<Falling<changes>>>(settings);
-    };
-    AnyGameOf<Falling<changes>> game{Settings{.stepping = {.rate = {10}}}};
-    TraceWriter none{{}, {}, game.world()};
-    Playback playback{game, none, Keep::nothing};
-    LiveInput live;
-    GameRun run{.options = options,
-                .about = Falling<changes>::about,
-                .make = make,
-                .playback = playback,
-                .live = live,
-                .inputs = live};
-    LivePlay play{run};
     std::chrono::nanoseconds time{0};
     std::string known;
 };

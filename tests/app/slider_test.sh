@@ -2,18 +2,11 @@
 # SPDX-License-Identifier: MIT
 # Drags the slider of the demo jump in a real window: the game is made anew at the rate that it asks
 # for, and its knob stands there.
-# Usage: slider_test.sh PROGRAM TITLE. Exit 77: Xvfb, xdotool or python3 is not installed.
+# Usage: slider_test.sh PROGRAM TITLE.
 set -u
-. "$(dirname "$0")/../support/until_true.sh"
 program=$1
 title=$2
-command -v Xvfb >/dev/null && command -v xdotool >/dev/null && command -v python3 >/dev/null || exit 77
-
-folder=$(mktemp -d)
-server=
-game=
-trap 'kill $game $server 2>/dev/null; rm -rf "$folder"' EXIT
-fail() { echo "slider_test: $1"; exit 1; }
+. "$(dirname "$0")/../support/on_display.sh"
 
 # Prints "x y" of the knob: the middle of the longest dark run of 10 to 24 pixels that is as high.
 knob() {
@@ -43,18 +36,10 @@ END
 }
 knob_is_right_of() { [ "$(knob | cut -d' ' -f1)" -gt "$1" ]; }
 knob_is_left_of() { ! knob_is_right_of "$1"; }
-window_focused() { xdotool search --name "$title" windowfocus >/dev/null 2>&1; }
 
-Xvfb -noreset -displayfd 3 -screen 0 640x360x24 -fbdir "$folder" 3>"$folder/display" >/dev/null 2>&1 &
-server=$!
-until_true test -s "$folder/display" || fail "Xvfb does not start"
-DISPLAY=:$(cat "$folder/display")
-export DISPLAY
-
+open_display 640x360
 # The slider has twelve places, 50 pixels apart; the last is 240 Hz.
-"$program" --size 640x360 >"$folder/out" 2>"$folder/err" &
-game=$!
-until_true window_focused || fail "no window: $(cat "$folder/err")"
+start_game --size 640x360
 until_true knob_is_right_of 570 || fail "the knob is not at 240 Hz: $(knob)"
 xdotool key Left
 until_true knob_is_left_of 560 || fail "Left does not lower the rate: $(knob)"

@@ -1,21 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Runs a demo in a real window: pause freezes the picture, a single step changes it, F4 takes it back,
-# F1 opens the inspector, F2 shows a help, Escape closes it and then quits with exit code 0, and --frames N quits after N
-# frames. A closed window leaves with 0, a killed server with 3 and complete files.
-# Usage: window_test.sh PROGRAM TITLE. Exit 77:
-# Xvfb or xdotool is not installed.
+# Runs a demo in a real window: pause freezes the picture, a single step changes it, F4 takes it
+# back, F1 opens the inspector, F2 shows a help, Escape closes it and then quits with exit code 0,
+# and --frames N quits after N frames. A closed window leaves with 0, a killed server with 3 and
+# complete files. Usage: window_test.sh PROGRAM TITLE.
 set -u
-. "$(dirname "$0")/../support/until_true.sh"
 program=$1
 title=$2
-command -v Xvfb >/dev/null && command -v xdotool >/dev/null && command -v python3 >/dev/null || exit 77
-
-folder=$(mktemp -d)
-server=
-game=
-trap 'kill $game $server 2>/dev/null; rm -rf "$folder"' EXIT
-fail() { echo "window_test: $1"; exit 1; }
+. "$(dirname "$0")/../support/on_display.sh"
 
 screenshot() { cp "$folder/Xvfb_screen0" "$folder/$1"; }
 stands_still() {
@@ -29,18 +21,8 @@ stands_still() {
 moves() { ! stands_still; }
 has_changed() { screenshot stepped && ! cmp -s "$folder/paused" "$folder/stepped"; }
 shows_before() { screenshot now && cmp -s "$folder/before" "$folder/now"; }
-window_focused() { xdotool search --name "$title" windowfocus >/dev/null 2>&1; }
-
-# Without -noreset the server restarts when its last client leaves, and refuses clients meanwhile.
-Xvfb -noreset -displayfd 3 -screen 0 800x600x24 -fbdir "$folder" 3>"$folder/display" >/dev/null 2>&1 &
-server=$!
-until_true test -s "$folder/display" || fail "Xvfb does not start"
-DISPLAY=:$(cat "$folder/display")
-export DISPLAY
-
-"$program" --size 640x360 >"$folder/out" 2>"$folder/err" &
-game=$!
-until_true window_focused || fail "no window: $(cat "$folder/err")"
+open_display 800x600
+start_game --size 640x360
 until_true grep -q "drawing with sdl2" "$folder/err" || fail "auto does not select the window"
 until_true moves || fail "nothing moves before the pause"
 xdotool key F3

@@ -150,7 +150,8 @@ void GameWindow::take_from_shelf() {
 }
 
 void GameWindow::draw(const Requests& requests, const Input& keys, std::chrono::nanoseconds now) {
-    if (panels_.inspector || measures_always()) play_.measure();
+    // A game whose setting cannot change in play is measured from its start or not at all.
+    if (panels_.inspector || has_line() || !run_.about.changes_in_play) play_.measure();
     Picture& picture = play_.play(now);
     const std::size_t bodies = run_.playback.world().body_count();
     is_measured_ = bodies <= most_measured_bodies && (is_measured_ || bodies > 0);
@@ -241,12 +242,6 @@ void GameWindow::present(Picture& picture, const Picture& overlay, const std::st
     const Span span(run_.profile, "present");
     renderer_.blit();
     window_->present();
-}
-
-/// Whether it is measured what the timestep costs before the inspector opens. A game whose setting
-/// cannot change in play is measured from its start or not at all.
-bool GameWindow::measures_always() const {
-    return has_line() || (!run_.about.changes_in_play && run_.about.fixed_setting.empty());
 }
 
 /// Whether the player sees what the timestep costs while the inspector is closed.

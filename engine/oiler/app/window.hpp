@@ -45,7 +45,6 @@ private:
         [[nodiscard]] float share(int Size::*side) const;
     };
 
-    [[nodiscard]] bool measures_always() const;
     [[nodiscard]] bool has_line() const;
     [[nodiscard]] Layout layout() const;
     void control(const Requests& requests, const Input& keys);

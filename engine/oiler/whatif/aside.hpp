@@ -45,7 +45,7 @@ private:
     /// Waits for what to do next; returns whether there is anything.
     bool wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
     void take(Posted posted);
-    /// Whether the round that is played along is worth its end before the next begins.
+    /// Whether the round that is played along goes on to its end before the next begins.
     [[nodiscard]] bool goes_on_before_next() const;
     /// Plays a step along, or begins.
     void work();
@@ -59,7 +59,7 @@ private:
 
     // Of the thread alone:
     std::unique_ptr<PlayAlong> along_;
-    std::optional<Posted> next_;  ///< what is played along after that
+    std::optional<Posted> next_;  ///< begins after it
     Clock::time_point next_verdict_{};
     std::jthread thread_;
 };

@@ -13,6 +13,10 @@ namespace {
 
 bool is_whole(double value) { return std::trunc(value) == value; }
 
+bool is_same_body(const Moment::Placed& one, const Moment::Placed& other) {
+    return one.entity == other.entity && one.jumps == other.jumps;
+}
+
 bool is_same_count(const Reading& one, const Reading& other) {
     const bool counts = is_whole(one.value) && is_whole(other.value);
     return one.name == other.name && (!counts || one.value == other.value);
@@ -81,10 +85,6 @@ Vec3 place(const Moment::Placed& from, const Moment::Placed& to, double alpha) {
 
 }  // namespace
 
-bool is_same_body(const Moment::Placed& one, const Moment::Placed& other) {
-    return one.entity == other.entity && one.jumps == other.jumps;
-}
-
 Moment moment_of(const AnyGame& game) {
     const World& world = game.world();
     Moment moment{.cuts = game.cuts(), .quits = game.loop().quits()};
@@ -126,6 +126,18 @@ std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies
     for (const Moment::Placed& body : a.bodies)
         if (const Moment::Placed* const same = other.of(body)) pairs.emplace_back(&body, same);
     return pairs;
+}
+
+std::vector<Entity> different_bodies(const Moment& a, const Moment& b) {
+    std::vector<Entity> different;
+    const auto add_missing = [&](const Moment& from, const Moment& to) {
+        SameBody other(to);
+        for (const Moment::Placed& body : from.bodies)
+            if (!other.of(body)) different.push_back(body.entity);
+    };
+    add_missing(a, b);
+    add_missing(b, a);
+    return different;
 }
 
 Moment between(const Moment& before, const Moment& after, double alpha) {

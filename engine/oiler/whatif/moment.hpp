@@ -28,9 +28,6 @@ struct Moment {
 
 [[nodiscard]] Moment moment_of(const AnyGame& game);
 
-/// Whether it is the same entity and was teleported equally often.
-[[nodiscard]] bool is_same_body(const Moment::Placed& one, const Moment::Placed& other);
-
 /// Whether bodies, teleports, restarts and whole-number readings are the same.
 [[nodiscard]] bool is_same_play(const Moment& a, const Moment& b);
 
@@ -43,6 +40,9 @@ struct Moment {
 [[nodiscard]] std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies(
     const Moment& a, const Moment& b);
 
+/// The bodies that only one has, and those that were teleported more often in one.
+[[nodiscard]] std::vector<Entity> different_bodies(const Moment& a, const Moment& b);
+
 /// The bodies as drawn at `alpha` between two moments, without those that appeared or were
 /// teleported meanwhile. All else is as in `after`.
 [[nodiscard]] Moment between(const Moment& before, const Moment& after, double alpha);
@@ -51,7 +51,7 @@ struct Moment {
 struct Apart {
     double distance = 0;  ///< m
     Entity body{};
-    bool is_same_play = true;  ///< and else, too
+    bool is_same_play = true;  ///< whether all bodies and counts are the same, too
 };
 /// The same body with the largest distance in two plays; empty if they have none, or if only one
 /// has restarted or ended.

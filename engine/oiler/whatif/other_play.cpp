@@ -48,19 +48,10 @@ std::optional<OtherPlay::Found> OtherPlay::compare(
 
 void OtherPlay::compare_bodies(const Moment& play, const Moment& truth, double time) {
     const auto before = std::exchange(bodies_, {});
-    const auto add = [&](const std::vector<Moment::Placed>& some,
-                         const std::vector<Moment::Placed>& others) {
-        auto other = others.begin();
-        for (const Moment::Placed& body : some) {
-            while (other != others.end() && other->entity.id() < body.entity.id()) ++other;
-            if (other != others.end() && is_same_body(body, *other)) continue;
-            const auto known = before.find(body.entity.id());
-            bodies_.emplace(body.entity.id(),
-                            known == before.end() ? Different{body.entity, time} : known->second);
-        }
-    };
-    add(play.bodies, truth.bodies);
-    add(truth.bodies, play.bodies);
+    for (const Entity body : different_bodies(play, truth)) {
+        const auto known = before.find(body.id());
+        bodies_.emplace(body.id(), known == before.end() ? Different{body, time} : known->second);
+    }
 }
 
 }  // namespace oiler

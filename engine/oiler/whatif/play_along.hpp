@@ -33,7 +33,7 @@ struct LiveFigures {
     std::shared_ptr<const DrawnStep> last{};  ///< null if the true motion of that step is unknown
     bool has_stopped = false;                 ///< no more will be known
 
-    /// They become those of the last round, before the first step of one that repeats it.
+    /// Makes them those of the last round, before the first step of one that repeats it.
     void begin_repeat();
 };
 

@@ -67,8 +67,9 @@ constexpr double pixels_of_height = 720;
 constexpr std::size_t few_bodies = 64;
 constexpr std::size_t many_bodies = 2000;
 
-/// Every how many instants of a recorded step the runs are compared: of many bodies, 960 times a
-/// second are enough, but in the middle of each step, where lines differ most from the motion.
+/// The number of instants from one comparison to the next. With many bodies, 960 comparisons a
+/// second are enough, if one is in the middle of each step, where its line is farthest from the
+/// motion.
 std::int64_t stride_of(const SettingRun& recorded) {
     constexpr std::int64_t most = instants_per_step / 2;
     const std::size_t bodies = recorded.game().world().body_count();
