@@ -313,6 +313,20 @@ TEST(WhatIf, NamesTheTimeFromWhichAPixelIsExceeded) {
     EXPECT_FALSE(result.runs[3].visible_from);
 }
 
+/// Its camera shows twice as much after a second.
+struct Zoom : Fall {
+    static constexpr About about{.name = "zoom", .title = "Zoom", .rate = rate};
+    using Fall::Fall;
+    [[nodiscard]] Picture picture() const {
+        return {.camera = {.height = (world.time() < 1 ? 1 : 2) * camera_height}};
+    }
+};
+
+TEST(WhatIf, APixelIsThatOfTheCameraAsItIs) {
+    EXPECT_FLOAT_EQ(static_cast<float>(measure<Zoom>(record<Zoom>(), "rk4").pixel),
+                    2 * camera_height / 720);
+}
+
 // The reference meets the target at 0.4113 s, before step 25 ends; semi-implicit Euler misses it,
 // because its apex is 9 m/s·dt/2 lower. Until step 24 it is g·dt·t/2 too low, and g·dt²·(a − a²/2)
 // more at a = 11/16 of the line to the next step, where the reference begins the step that meets
@@ -356,12 +370,15 @@ TEST(WhatIf, NothingIsCountedOnceARestartIsMissing) {
 }
 
 /// A ball flies off every 0.1 s, or at the next step.
+template <bool falls>
 struct Stream {
     static constexpr About about{.name = "stream", .title = "Stream", .rate = rate};
     static constexpr double speed = 5;
     World world;
     std::int64_t balls = 0;
-    explicit Stream(const Settings& settings) : world(1, settings) {}
+    explicit Stream(const Settings& settings) : world(1, settings) {
+        if (falls) world.set_gravity({-gravity});
+    }
     void update(const Input&) {
         for (; 10 * world.tick() >= balls * world.settings().stepping.rate.steps; ++balls)
             (void)world.spawn(Body{.velocity = {speed}});
@@ -372,10 +389,17 @@ struct Stream {
 // A step of 1/8 s begins up to 0.1 s after a ball is due: 0.5 s is the first time that is both.
 // After it, nearly always one ball is late.
 TEST(WhatIf, AStreamOfLateBodiesIsNoOtherPlay) {
-    const WhatIf result = measure<Stream>(record<Stream>(), "8,20");
+    using Flight = Stream<false>;
+    const WhatIf result = measure<Flight>(record<Flight>(), "8,20");
     EXPECT_FALSE(result.runs[1].other_play_from) << result.runs[1].other_play;
-    EXPECT_NEAR(result.runs[1].distance, 0.1 * Stream::speed, 1e-9);
+    EXPECT_NEAR(result.runs[1].distance, 0.1 * Flight::speed, 1e-9);
     EXPECT_NEAR(result.runs[2].distance, 0, 1e-9) << "20 Hz has a step at each";
+}
+
+// At 10 Hz each step ends with a new ball; the lines of the others are compared.
+TEST(WhatIf, ABodyThatAppearsHidesNoOther) {
+    const WhatIf result = measure<Stream<true>>(record<Stream<true>>(), "velocity_verlet@10");
+    EXPECT_NEAR(result.runs[1].distance, chord(10), 1e-9);
 }
 
 /// A ball that falls at 3 m/s without gravity, and bounces after 30.4 steps without a loss.
