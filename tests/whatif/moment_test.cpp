@@ -32,7 +32,7 @@ TEST(Moments, OfAGameThatQuitAreOfAnotherPlay) {
 }
 
 TEST(Moments, NameTheirFirstDifference) {
-    const auto name = [](Entity body) { return "body " + std::to_string(body.index); };
+    const auto name = [](Entity body, bool) { return "body " + std::to_string(body.index); };
     const auto difference = [&](const Moment& play, const Moment& truth) {
         return describe_difference(play, truth, name);
     };

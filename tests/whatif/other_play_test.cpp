@@ -6,7 +6,7 @@
 namespace oiler::test {
 namespace {
 
-std::string name(Entity body) { return "body " + std::to_string(body.index); }
+std::string name(Entity body, bool) { return "body " + std::to_string(body.index); }
 
 /// The first `count` of a row of bodies.
 Moment bodies(std::uint32_t count) {

@@ -402,6 +402,33 @@ TEST(WhatIf, ABodyThatAppearsHidesNoOther) {
     EXPECT_NEAR(result.runs[1].distance, chord(10), 1e-9);
 }
 
+/// Two bodies vanish, at 0.5 and 0.52 s, and two others fly off, at 0.51 and 0.53 s. Where a step
+/// has two of these times, the later ones take the slots of the earlier ones in another order.
+struct Swap {
+    static constexpr About about{.name = "swap", .title = "Swap", .rate = rate};
+    static constexpr double speed = 5;
+    World world;
+    std::array<Entity, 2> old{world.spawn(Body{}), world.spawn(Body{})};
+    std::array<bool, 2> has_flown{};
+    explicit Swap(const Settings& settings) : world(1, settings) {}
+    void update(const Input&) {
+        for (int i : {0, 1})
+            if (world.time() >= 0.5 + 0.02 * i && world.alive(old[i])) world.destroy(old[i]);
+        for (int i : {0, 1})
+            if (world.time() >= 0.51 + 0.02 * i && !std::exchange(has_flown[i], true))
+                (void)world.spawn(Body{.velocity = {i == 0 ? speed : -speed}});
+    }
+    [[nodiscard]] Picture picture() const { return {.camera = {.height = camera_height}}; }
+};
+
+// At 10 Hz all but the first happens at 0.6 s, 0.09 s after the step of the reference that begins
+// at 0.51 s or next.
+TEST(WhatIf, BodiesAreTheSameInTheOrderOfTheirCreation) {
+    const WhatIf result = measure<Swap>(record<Swap>(), "10");
+    EXPECT_FALSE(result.runs[1].other_play_from) << result.runs[1].other_play;
+    EXPECT_NEAR(result.runs[1].distance, Swap::speed * (0.6 - std::ceil(0.51 * 7680) / 7680), 1e-9);
+}
+
 /// A ball that falls at 3 m/s without gravity, and bounces after 30.4 steps without a loss.
 struct Bounce {
     static constexpr About about{.name = "bounce", .title = "Bounce", .rate = rate};

@@ -242,5 +242,25 @@ TEST(Each, MayCreateOthersAndDoesNotVisitThem) {
     for (const auto& [points, count] : visits) EXPECT_TRUE(points < 20 && count == 1) << points;
 }
 
+TEST(Entities, AreNumberedInTheOrderOfTheirCreation) {
+    World world(1);
+    const Entity first = world.create(), second = world.create();
+    EXPECT_EQ(world.number(first), first.id()) << "not yet numbered";
+    world.number_entities();
+    EXPECT_EQ(world.number(first), 0U);
+    EXPECT_EQ(world.number(second), 1U);
+    world.destroy(first);
+    world.destroy(second);
+    World copy = world;
+    for (World* const one : {&world, &copy}) {
+        const Entity third = one->create(), fourth = one->create();
+        EXPECT_EQ(third.index, second.index) << "the slot that was freed last";
+        EXPECT_EQ(one->number(third), 2U);
+        EXPECT_EQ(one->number(fourth), 3U);
+        one->number_entities();
+        EXPECT_EQ(one->number(fourth), 3U) << "a second time changes nothing";
+    }
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -31,6 +31,8 @@ public:
         return slot < generations_.size() && generations_[slot] == generation;
     }
     [[nodiscard]] std::uint32_t generation(std::uint32_t slot) const { return generations_[slot]; }
+    /// The number of slots, used or not.
+    [[nodiscard]] std::size_t size() const { return generations_.size(); }
     [[nodiscard]] std::size_t used() const { return generations_.size() - free_.size(); }
     void reserve(std::size_t slots) { generations_.reserve(slots); }
 

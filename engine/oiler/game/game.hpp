@@ -179,6 +179,8 @@ public:
     }
     /// Makes it a rehearsal, see Loop.
     void rehearse() { loop_.rehearse(); }
+    /// See World. A world that the game makes anew is not numbered.
+    virtual void number_entities() {}
     [[nodiscard]] virtual const World& world() const = 0;
     [[nodiscard]] virtual Picture picture() const = 0;
     /// The game's results so far; empty if it offers none.
@@ -243,6 +245,7 @@ public:
     }
     void set_stepping(const Stepping& stepping) override { game_.world.set_stepping(stepping); }
     void set_threads(int threads) override { game_.world.set_threads(threads); }
+    void number_entities() override { game_.world.number_entities(); }
     [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
         return guarded(copying, [&] { return std::make_unique<AnyGameOf>(*this); });
     }

@@ -14,7 +14,7 @@ namespace {
 bool is_whole(double value) { return std::trunc(value) == value; }
 
 bool is_same_body(const Moment::Placed& one, const Moment::Placed& other) {
-    return one.entity == other.entity && one.jumps == other.jumps;
+    return one.number == other.number && one.jumps == other.jumps;
 }
 
 bool is_same_count(const Reading& one, const Reading& other) {
@@ -36,33 +36,31 @@ std::string two_counts(const std::string& name, double play, double truth) {
 }
 
 /// Names the first body that only one of two plays has, or that was teleported more often in one.
-std::string describe_bodies(const Moment& play, const Moment& truth,
-                            const std::function<std::string(Entity)>& name_of) {
-    const auto find = [](const Moment& in, Entity entity) {
-        return std::ranges::find(in.bodies, entity, &Moment::Placed::entity);
+std::string describe_bodies(const Moment& play, const Moment& truth, const NameOfEither& name_of) {
+    const auto find = [](const Moment& in, const Moment::Placed& body) {
+        return std::ranges::find(in.bodies, body.number, &Moment::Placed::number);
     };
     for (const Moment::Placed& body : play.bodies) {
-        const auto other = find(truth, body.entity);
-        if (other == truth.bodies.end()) return name_of(body.entity) + " is not in the true motion";
+        const auto other = find(truth, body);
+        const auto name = [&] { return name_of(body.entity, false); };
+        if (other == truth.bodies.end()) return name() + " is not in the true motion";
         if (other->jumps != body.jumps)
-            return two_counts("teleports of " + name_of(body.entity) + ":", body.jumps,
-                              other->jumps);
+            return two_counts("teleports of " + name() + ":", body.jumps, other->jumps);
     }
     for (const Moment::Placed& body : truth.bodies)
-        if (find(play, body.entity) == play.bodies.end())
-            return name_of(body.entity) + " is only in the true motion";
+        if (find(play, body) == play.bodies.end())
+            return name_of(body.entity, true) + " is only in the true motion";
     return "";
 }
 
-std::uint64_t id_of(const Moment::Placed& body) { return body.entity.id(); }
-
 /// Null if the moment has none.
 const Moment::Placed* same_body(const Moment& moment, const Moment::Placed& body) {
-    const auto found = std::ranges::lower_bound(moment.bodies, id_of(body), {}, id_of);
+    const auto found =
+        std::ranges::lower_bound(moment.bodies, body.number, {}, &Moment::Placed::number);
     return found != moment.bodies.end() && is_same_body(*found, body) ? &*found : nullptr;
 }
 
-/// Finds the bodies of a moment in the order of their entities.
+/// Finds the bodies of a moment in the order of their numbers.
 class SameBody {
 public:
     explicit SameBody(const Moment& moment)
@@ -70,7 +68,7 @@ public:
 
     /// Null if there is none.
     const Moment::Placed* of(const Moment::Placed& body) {
-        while (next_ != end_ && id_of(*next_) < id_of(body)) ++next_;
+        while (next_ != end_ && next_->number < body.number) ++next_;
         return next_ != end_ && is_same_body(*next_, body) ? next_ : nullptr;
     }
 
@@ -91,10 +89,11 @@ Moment moment_of(const AnyGame& game) {
     moment.bodies.reserve(world.body_count());
     for (std::size_t row = 0; row < world.body_count(); ++row) {
         const Entity entity = world.entity_of_row(row);
-        moment.bodies.push_back({entity, world.jumps(entity), world.position_of_row(row)});
+        moment.bodies.push_back(
+            {entity, world.jumps(entity), world.position_of_row(row), world.number(entity)});
     }
-    if (!std::ranges::is_sorted(moment.bodies, {}, id_of))
-        std::ranges::sort(moment.bodies, {}, id_of);
+    if (!std::ranges::is_sorted(moment.bodies, {}, &Moment::Placed::number))
+        std::ranges::sort(moment.bodies, {}, &Moment::Placed::number);
     moment.readings = game.readings();
     return moment;
 }
@@ -105,7 +104,7 @@ bool is_same_play(const Moment& a, const Moment& b) {
 }
 
 std::string describe_difference(const Moment& play, const Moment& truth,
-                                const std::function<std::string(Entity)>& name_of) {
+                                const NameOfEither& name_of) {
     if (play.quits != truth.quits)
         return play.quits ? "the game ends, the true motion goes on" : "the true motion has ended";
     if (play.cuts != truth.cuts)
@@ -128,12 +127,12 @@ std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies
     return pairs;
 }
 
-std::vector<Entity> different_bodies(const Moment& a, const Moment& b) {
-    std::vector<Entity> different;
+std::vector<Moment::Placed> different_bodies(const Moment& a, const Moment& b) {
+    std::vector<Moment::Placed> different;
     const auto add_missing = [&](const Moment& from, const Moment& to) {
         SameBody other(to);
         for (const Moment::Placed& body : from.bodies)
-            if (!other.of(body)) different.push_back(body.entity);
+            if (!other.of(body)) different.push_back(body);
     };
     add_missing(a, b);
     add_missing(b, a);
@@ -144,7 +143,7 @@ Moment between(const Moment& before, const Moment& after, double alpha) {
     Moment drawn = after;
     drawn.bodies.clear();
     for (const auto& [from, to] : same_bodies(before, after))
-        drawn.bodies.push_back({to->entity, to->jumps, place(*from, *to, alpha)});
+        drawn.bodies.push_back({to->entity, to->jumps, place(*from, *to, alpha), to->number});
     return drawn;
 }
 

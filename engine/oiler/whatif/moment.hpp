@@ -19,10 +19,11 @@ struct Moment {
         Entity entity;
         std::uint32_t jumps;
         Vec3 position;
+        std::uint64_t number = entity.id();  ///< see World::number
     };
     std::int64_t cuts = 0;
     bool quits = false;
-    std::vector<Placed> bodies{};  ///< in the order of their entities
+    std::vector<Placed> bodies{};  ///< in the order of their numbers
     std::vector<Reading> readings{};
 };
 
@@ -31,17 +32,20 @@ struct Moment {
 /// Whether bodies, teleports, restarts and whole-number readings are the same.
 [[nodiscard]] bool is_same_play(const Moment& a, const Moment& b);
 
+/// Names a body of a play, or of the true one.
+using NameOfEither = std::function<std::string(Entity, bool is_of_truth)>;
+
 /// Names the first difference of a play from the true one: "coins 2, true 3", "ball is only in the
-/// true motion". Empty if they are the same play. `name_of` names a body of either.
+/// true motion". Empty if they are the same play.
 [[nodiscard]] std::string describe_difference(const Moment& play, const Moment& truth,
-                                              const std::function<std::string(Entity)>& name_of);
+                                              const NameOfEither& name_of);
 
 /// Pairs of the bodies that both have and that were teleported equally often.
 [[nodiscard]] std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies(
     const Moment& a, const Moment& b);
 
 /// The bodies that only one has, and those that were teleported more often in one.
-[[nodiscard]] std::vector<Entity> different_bodies(const Moment& a, const Moment& b);
+[[nodiscard]] std::vector<Moment::Placed> different_bodies(const Moment& a, const Moment& b);
 
 /// The bodies as drawn at `alpha` between two moments, without those that appeared or were
 /// teleported meanwhile. All else is as in `after`.

@@ -10,8 +10,8 @@ namespace {
 constexpr double lasting_difference = 0.25;  // s
 
 /// The moment with that body alone, if it has it.
-Moment only(const Moment& moment, Entity body) {
-    const auto found = std::ranges::find(moment.bodies, body, &Moment::Placed::entity);
+Moment only(const Moment& moment, std::uint64_t number) {
+    const auto found = std::ranges::find(moment.bodies, number, &Moment::Placed::number);
     return {.bodies = {found, found == moment.bodies.end() ? found : found + 1}};
 }
 
@@ -23,13 +23,13 @@ Moment without_bodies(const Moment& moment) {
 
 double OtherPlay::since() const {
     double first = rest_ ? rest_->from : std::numeric_limits<double>::infinity();
-    for (const auto& [id, one] : bodies_) first = std::min(first, one.from);
+    for (const auto& [number, from] : bodies_) first = std::min(first, from);
     return first;
 }
 
-std::optional<OtherPlay::Found> OtherPlay::compare(
-    const Moment& play, const Moment& truth, double time, double late,
-    const std::function<std::string(Entity)>& name_of) {
+std::optional<OtherPlay::Found> OtherPlay::compare(const Moment& play, const Moment& truth,
+                                                   double time, double late,
+                                                   const NameOfEither& name_of) {
     const std::string rest =
         describe_difference(without_bodies(play), without_bodies(truth), name_of);
     if (rest.empty())
@@ -39,18 +39,18 @@ std::optional<OtherPlay::Found> OtherPlay::compare(
     compare_bodies(play, truth, time);
     const double lasts_since = time - lasting_difference - late;
     if (rest_ && rest_->from <= std::min(lasts_since, since())) return rest_;
-    const auto first =
-        std::ranges::min_element(bodies_, {}, [](const auto& entry) { return entry.second.from; });
-    if (first == bodies_.end() || first->second.from > lasts_since) return std::nullopt;
-    const auto& [body, from] = first->second;
-    return Found{from, describe_difference(only(play, body), only(truth, body), name_of)};
+    for (const auto& [number, from] : bodies_)
+        if (from == since() && from <= lasts_since)
+            return Found{from,
+                         describe_difference(only(play, number), only(truth, number), name_of)};
+    return std::nullopt;
 }
 
 void OtherPlay::compare_bodies(const Moment& play, const Moment& truth, double time) {
     const auto before = std::exchange(bodies_, {});
-    for (const Entity body : different_bodies(play, truth)) {
-        const auto known = before.find(body.id());
-        bodies_.emplace(body.id(), known == before.end() ? Different{body, time} : known->second);
+    for (const Moment::Placed& body : different_bodies(play, truth)) {
+        const auto known = before.find(body.number);
+        bodies_.emplace(body.number, known == before.end() ? time : known->second);
     }
 }
 

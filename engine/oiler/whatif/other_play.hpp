@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -22,10 +21,9 @@ public:
     };
 
     /// Compares the two at `time`, s; the run may be `late`, s. Returns the first difference that
-    /// lasts. `name_of` names a body of either.
+    /// lasts.
     [[nodiscard]] std::optional<Found> compare(const Moment& play, const Moment& truth, double time,
-                                               double late,
-                                               const std::function<std::string(Entity)>& name_of);
+                                               double late, const NameOfEither& name_of);
     /// The beginning of the first difference that there still is, s; infinity: there is none.
     [[nodiscard]] double since() const;
     [[nodiscard]] bool differs() const { return rest_ || !bodies_.empty(); }
@@ -33,14 +31,10 @@ public:
 private:
     void compare_bodies(const Moment& play, const Moment& truth, double time);
 
-    /// A body that only one has, or that was teleported more often in one.
-    struct Different {
-        Entity body;
-        double from;  ///< s
-    };
-
-    std::optional<Found> rest_;                  ///< readings, restarts and the end
-    std::map<std::uint64_t, Different> bodies_;  ///< by their entities
+    std::optional<Found> rest_;  ///< readings, restarts and the end
+    /// The bodies that only one has, or that were teleported more often in one, by their numbers:
+    /// since when, s.
+    std::map<std::uint64_t, double> bodies_;
 };
 
 }  // namespace oiler

@@ -129,6 +129,7 @@ SettingRun::SettingRun(const Stepping& stepping, const RecordedPlay& play, const
     game_ = make(settings);
     game_->world().require_applicable();
     game_->rehearse();
+    game_->number_entities();
     game_->measure(times_);
 }
 
@@ -152,10 +153,10 @@ void SettingRun::add_impacts(std::deque<TrueImpact>& impacts) const {
         const std::size_t row = world.row(impact.entity);
         const double radius = world.bodies().contact(row)->radius;
         const double step = static_cast<double>(steps_) + rate * (impact.time - world.time());
-        impacts.push_back(
-            {instants_.other_step(step),
-             game_->cuts(),
-             {impact.entity, world.jumps(impact.entity), impact.point + impact.normal * radius}});
+        impacts.push_back({instants_.other_step(step),
+                           game_->cuts(),
+                           {impact.entity, world.jumps(impact.entity),
+                            impact.point + impact.normal * radius, world.number(impact.entity)}});
     }
 }
 
@@ -212,6 +213,7 @@ void SettingRun::take_step() {
     const std::int64_t before = game_->world().bodies().evaluations();
     try {
         steps_ += game_->step(steps_, 1, inputs_);
+        game_->number_entities();  // a restart may have made the world anew
         // A world that a game makes anew counts from 0.
         const std::int64_t after = game_->world().bodies().evaluations();
         evaluations_ += after - (after < before ? 0 : before);
@@ -232,10 +234,11 @@ void SettingRun::compare(std::int64_t recorded, double time, const Moment& refer
     if (result_.other_play_from) return;
     if (failed()) return settle();
     const bool is_at_step = ratio_.has(recorded);
-    const auto found = other_play_.compare(
-        moment(), reference, time, is_at_step ? 0 : result_.stepping.rate.dt(), [&](Entity body) {
-            return (game_->world().has_body(body) ? *game_ : true_game).name_of(body);
-        });
+    const auto found =
+        other_play_.compare(moment(), reference, time, is_at_step ? 0 : result_.stepping.rate.dt(),
+                            [&](Entity body, bool is_of_truth) {
+                                return (is_of_truth ? true_game : *game_).name_of(body);
+                            });
     const auto apart =
         is_at_step && recorded > 0 && !found ? largest_distance(reference, moment()) : std::nullopt;
     if (apart) note({time, *apart, visible, true});

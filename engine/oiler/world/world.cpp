@@ -39,6 +39,8 @@ World::World(const World& other)
     : settings_(other.settings_),
       tick_(other.tick_),
       slots_(other.slots_),
+      numbers_(other.numbers_),
+      next_number_(other.next_number_),
       bodies_(std::make_unique<Bodies>(*other.bodies_)),
       rows_(other.rows_),
       impacts_(other.impacts_),
@@ -66,6 +68,8 @@ World& World::operator=(World&& other) {
     tick_ = other.tick_;
     age_ = other.age_;
     slots_ = std::move(other.slots_);
+    numbers_ = std::move(other.numbers_);
+    next_number_ = other.next_number_;
     pools_ = std::move(other.pools_);
     if (bodies_ && other.bodies_)
         *bodies_ = std::move(*other.bodies_);  // references to the bodies stay valid
@@ -98,7 +102,25 @@ void World::change(const char* call, Entity entity, F f) {
     }
 }
 
-Entity World::create() { return slots_.take<Entity>(); }
+Entity World::create() {
+    const auto entity = slots_.take<Entity>();
+    if (next_number_) {
+        numbers_.resize(slots_.size());
+        numbers_[entity.index] = (*next_number_)++;
+    }
+    return entity;
+}
+
+void World::number_entities() {
+    if (next_number_) return;
+    numbers_.resize(slots_.size());
+    std::iota(numbers_.begin(), numbers_.end(), std::uint64_t{0});
+    next_number_ = numbers_.size();
+}
+
+std::uint64_t World::number(Entity entity) const {
+    return next_number_ ? numbers_[entity.index] : entity.id();
+}
 
 void World::destroy(Entity entity) {
     require_of(entity, alive(entity), "destroy", gone);

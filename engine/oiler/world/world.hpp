@@ -217,6 +217,11 @@ public:
     /// The number of teleports of the body: the `jump` of a picture's element. 0 if the entity is
     /// gone.
     [[nodiscard]] std::uint32_t jumps(Entity entity) const;
+    /// From now on, entities are numbered in the order in which they are created, which tells those
+    /// of two runs that are the same: slots may be taken again in another order.
+    void number_entities();
+    /// The number of an entity, or Entity::id() if entities are not numbered.
+    [[nodiscard]] std::uint64_t number(Entity entity) const;
 
     /// Adds an obstacle that bodies with a contact meet. See Bodies::add_obstacle.
     ObstacleHandle add_obstacle(const Obstacle& obstacle);
@@ -445,6 +450,8 @@ private:
     std::int64_t tick_ = 0;
     std::int64_t age_ = 0;
     HandleSlots slots_;
+    std::vector<std::uint64_t> numbers_{};        ///< by slot; empty: entities are not numbered
+    std::optional<std::uint64_t> next_number_{};  ///< likewise
     std::vector<TaggedPool> pools_;
     std::unique_ptr<Bodies> bodies_;
     SlotSet rows_;
