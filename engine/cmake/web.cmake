@@ -7,9 +7,21 @@ set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE BOTH)  # files that are embedded
 set(OILER_STB_INCLUDE /usr/include/stb)
 set(OILER_WEB_PACKAGES ${CMAKE_BINARY_DIR}/packages CACHE PATH "Archives of imgui and libdeflate")
 
+# Clang 19 crashes where it computes a function of a constant long double. So it is told that these
+# are functions of which it knows nothing.
+set(web_unknown ${CMAKE_BINARY_DIR}/unknown.h)
+set(declarations)
+foreach(function ceil cos exp exp2 fabs floor log2 nearbyint round sin sqrt trunc)
+  string(APPEND declarations "long double ${function}l(long double);\n")
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fno-builtin-${function}l>
+                      $<$<COMPILE_LANGUAGE:CXX>:-D__builtin_${function}l=${function}l>)
+endforeach()
+file(CONFIGURE OUTPUT ${web_unknown} CONTENT "extern \"C\" {\n${declarations}}\n" @ONLY)
+add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${web_unknown}>")
+
 # Only these: other headers of the machine do not hold for WebAssembly.
 set(web_include ${CMAKE_BINARY_DIR}/include)
-foreach(header fmt toml++ CLI nlohmann xxhash.h xxh3.h)
+foreach(header fmt toml++ CLI nlohmann xxhash.h xxh3.h stb)
   if(NOT EXISTS /usr/include/${header})
     message(FATAL_ERROR "/usr/include/${header} not found: install the packages of README.md")
   endif()
@@ -53,7 +65,9 @@ macro(provide_web_package method name)
     web_library(CLI11::CLI11 ${web_include})
     web_library(nlohmann_json::nlohmann_json ${web_include})
     web_library(Eigen3::Eigen /usr/include/eigen3)
-    web_library(PkgConfig::OILER_libxxhash ${web_include} XXH_INLINE_ALL XXH_VECTOR=0)
+    web_library(PkgConfig::OILER_libxxhash ${web_include} XXH_INLINE_ALL)
+    # Its vectors are those of ARM, translated by a header that Debian lacks.
+    target_compile_options(PkgConfig::OILER_libxxhash INTERFACE -mno-simd128)
     web_library(PkgConfig::OILER_tomlplusplus ${web_include})
   endif()
 endmacro()

@@ -23,13 +23,13 @@ protected:
 
     /// What the next step sees after these events.
     Input step(std::initializer_list<SDL_Event> events = {}) {
-        for (const SDL_Event& event : events) events_.handle(event, {1280, 720}, queue_, loop_);
+        for (const SDL_Event& event : events) events_.handle(event, {1280, 720}, {queue_, loop_});
         return queue_.take({.centre = {10, 5}, .height = 9});
     }
     Input step_after_polling() {
         SDL_GameControllerUpdate();
         SDL_Event event;
-        while (SDL_PollEvent(&event) != 0) events_.handle(event, {1280, 720}, queue_, loop_);
+        while (SDL_PollEvent(&event) != 0) events_.handle(event, {1280, 720}, {queue_, loop_});
         return step();
     }
     static SDL_Event key(SDL_Scancode code, bool down, bool repeat = false) {
@@ -66,7 +66,7 @@ TEST_F(Sdl2Events, OfTheMouseReachTheGameUnlessItIsTheLoops) {
     wheel.type = SDL_MOUSEWHEEL;
     wheel.wheel.y = 2;
     const auto handle = [&](const SDL_Event& event, bool is_of_game) {
-        events_.handle(event, {1280, 720}, queue_, loop_, {.mouse = is_of_game});
+        events_.handle(event, {1280, 720}, {queue_, loop_, {.mouse = is_of_game}});
     };
     handle(button(true), false);
     handle(wheel, false);
@@ -102,7 +102,7 @@ TEST_F(Sdl2Events, AreKeysByTheirPlace) {
 
 TEST_F(Sdl2Events, KeepEscapeForTheLoopBelowAHelp) {
     const auto handle = [&](SDL_Scancode code, bool down) {
-        events_.handle(key(code, down), {1280, 720}, queue_, loop_, {.escape = false});
+        events_.handle(key(code, down), {1280, 720}, {queue_, loop_, {.escape = false}});
     };
     (void)step({key(SDL_SCANCODE_ESCAPE, true)});
     handle(SDL_SCANCODE_ESCAPE, false);

@@ -64,7 +64,7 @@ struct Measured {
 
 // Semi-implicit Euler falls g·dt·t/2 too deep: 20/60·2/2 = 33 cm in 2 s, of which the push at 0.5 s
 // takes nothing back.
-TEST(LiveWhatIf, MeasuresTheGameThatItNeverTouches) {
+void expect_measured_untouched(LiveWhatIf::Pace pace) {
     const Settings settings{
         .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
     AnyGameOf<Fall> game(settings);
@@ -72,7 +72,7 @@ TEST(LiveWhatIf, MeasuresTheGameThatItNeverTouches) {
     OnePress player;
     OnePress other;
     const MakeGame make = make_fall;
-    LiveWhatIf along({settings}, make);
+    LiveWhatIf along({settings}, make, pace);
     along.start(0);
     InputTap tap(player, along);
     EXPECT_EQ(along.figures().verdict.grade, Grade::unknown);
@@ -114,6 +114,11 @@ TEST(LiveWhatIf, MeasuresTheGameThatItNeverTouches) {
     EXPECT_EQ(along.figures().verdict.text, "went back");
     EXPECT_EQ(along.figures().verdict.grade, Grade::unknown);
 }
+
+TEST(LiveWhatIf, MeasuresTheGameThatItNeverTouches) {
+    expect_measured_untouched(LiveWhatIf::Pace::aside);
+}
+TEST(LiveWhatIf, NeedsNoThread) { expect_measured_untouched(LiveWhatIf::Pace::frame); }
 
 // Semi-implicit Euler falls g·dt/2·t too deep in the time t since its start. A run that begins at 1
 // s with velocity Verlet's state is off by the second after it only. The reference rounds positions

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "oiler/app/golden.hpp"
 #include "oiler/app/options.hpp"
@@ -159,19 +161,18 @@ void announce_steps(const Options& options, const About& about, const World& wor
              steps * StepWork(world.bodies()).seconds_per_step(*stepping.method));
 }
 
-/// Plays in a window, as frames or as steps alone.
-RunEnd play_to_end(GameRun& run) {
+/// Plays as frames or as steps alone.
+RunEnd play_without_window(GameRun& run) {
     const Options& options = run.options;
-    if (!options.headless && !options.steps) return run_window(run);
-    if (!options.steps) {
-        const Exit exit = run_headless(run);
-        // The last frame of a replay comes before its end.
-        if (options.replay && !options.frames && !options.frame)
-            run.playback.step_to(options.replay->steps, run.inputs);
-        return {exit};
+    if (options.steps) {
+        run_steps(run);
+        return {Interrupt::requested() ? Exit::interrupted : Exit::done};
     }
-    run_steps(run);
-    return {Interrupt::requested() ? Exit::interrupted : Exit::done};
+    const Exit exit = run_headless(run);
+    // The last frame of a replay comes before its end.
+    if (options.replay && !options.frames && !options.frame)
+        run.playback.step_to(options.replay->steps, run.inputs);
+    return {exit};
 }
 
 Exit show_budget(const std::vector<BudgetEntry>& budget, bool quiet) {
@@ -236,98 +237,182 @@ void require_finite_energy(const GameRun& run, std::optional<std::int64_t>& over
     world.require_finite(world.energy());
 }
 
-/// Plays the game. Completes the report, also after a divergence.
-Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
-    const Playback& playback = run.playback;
-    const Clock::time_point start = Clock::now();
-    RunEnd end;
-    std::optional<std::int64_t> overflow;
-    try {
-        end = play_to_end(run);
-        require_finite_energy(run, overflow);
-        report.last = playback.world().energy();
-        report.state_hash = playback.game().state_hash();
-        report.readings = playback.game().readings();
-    } catch (const Error& error) {
-        if (error.exit() != Exit::diverged) {
-            inputs.finish_recording(playback, true);
-            throw;
-        }
-        report.divergence = error.what();
+/// A run from the making of its game to its files. A page goes on with it after main has returned,
+/// so it holds all that it uses.
+class Session {
+public:
+    Session(Options options, const About& about, MakeGame make, MeasureBudget measure_budget,
+            std::shared_ptr<Shelf> shelf);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    [[nodiscard]] bool has_window() const { return !options_.headless && !options_.steps; }
+    /// Plays without a window.
+    void play() {
+        until_divergence([&] { end_ = play_without_window(*run_); });
     }
-    report.steps = overflow.value_or(playback.steps());
-    report.dropped = end.dropped;
-    report.wall = Clock::now() - start;
-    return end.exit;
+    /// Plays a frame in the window. Returns whether the next one follows.
+    [[nodiscard]] bool frame();
+    /// Writes the files of the run. Throws the divergence that ended it.
+    [[nodiscard]] Exit finish();
+
+private:
+    template <class F>
+    void until_divergence(F f);
+    void complete_report();
+    void commit_files();
+
+    const Options options_;
+    const About about_;
+    const MakeGame make_;
+    const MeasureBudget measure_budget_;
+    const std::shared_ptr<Shelf> shelf_;
+    const std::unique_ptr<AnyGame> game_;
+    RunInputs inputs_;
+    RunReport report_;
+    std::optional<TraceWriter> trace_;
+    std::optional<File> json_;
+    std::optional<File> profile_file_;
+    std::optional<Profile> profile_;
+    std::optional<Playback> playback_;
+    std::optional<GoldenUpdate> golden_;
+    std::optional<GameRun> run_;
+    std::optional<GameWindow> window_;  ///< from the first frame to the last
+    Clock::time_point start_ = Clock::now();
+    RunEnd end_;
+};
+
+Session::Session(Options options, const About& about, MakeGame make, MeasureBudget measure_budget,
+                 std::shared_ptr<Shelf> shelf)
+    : options_(std::move(options)),
+      about_(about),
+      make_(std::move(make)),
+      measure_budget_(std::move(measure_budget)),
+      shelf_(std::move(shelf)),
+      game_(make_(options_.settings)),
+      inputs_(options_, about_, *game_) {
+    const World& world = game_->world();
+    world.require_applicable();
+    if (const auto line = missing_instructions()) remark(options_.quiet, "{}", *line);
+    if (!options_.quiet)
+        for (const std::string& line : world.preflight()) remark(false, "{}", line);
+    announce_steps(options_, about_, world);
+    report_ = {.scene = about_.name, .first = world.energy()};
+    trace_.emplace(options_.trace, options_.energy, world);
+    // Opened before the run, so that a wrong path costs no time.
+    if (!options_.json.empty()) json_.emplace(options_.json, kinds::json);
+    if (!options_.profile.empty()) {
+        profile_file_.emplace(options_.profile, kinds::json);
+        profile_.emplace();
+    }
+    Profile* const stages = profile_ ? &*profile_ : nullptr;
+    playback_.emplace(*game_, *trace_, options_.headless ? Keep::hashes : Keep::nothing, stages);
+    if (options_.update_golden) golden_.emplace(options_.golden, std::string(about_.name));
+    inputs_.watch(*playback_);
+    run_.emplace(GameRun{.options = options_,
+                         .about = about_,
+                         .make = make_,
+                         .playback = *playback_,
+                         .live = inputs_.live,
+                         .inputs = inputs_.source(),
+                         .script_steps = inputs_.script_steps(),
+                         .shelf = shelf_.get(),
+                         .profile = stages});
+    start_ = Clock::now();
 }
 
-/// Plays the game and writes the files of the run.
-Exit run_once(const Options& options, const About& about, const MakeGame& make,
-              const MeasureBudget& measure_budget, Shelf* shelf) {
-    const std::unique_ptr<AnyGame> game = make(options.settings);
-    RunInputs inputs(options, about, *game);
-    const World& world = game->world();
-    world.require_applicable();
-    if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
-    if (!options.quiet)
-        for (const std::string& line : world.preflight()) remark(false, "{}", line);
-    announce_steps(options, about, world);
-    RunReport report{.scene = about.name, .first = world.energy()};
-    TraceWriter trace(options.trace, options.energy, world);
-    std::optional<File> json;  // opened before the run, so that a wrong path costs no time
-    if (!options.json.empty()) json.emplace(options.json, kinds::json);
-    std::optional<File> profile_file;
-    std::optional<Profile> profile;
-    if (!options.profile.empty()) {
-        profile_file.emplace(options.profile, kinds::json);
-        profile.emplace();
+/// Calls f(). A divergence ends the run, and the report has it.
+template <class F>
+void Session::until_divergence(F f) {
+    try {
+        f();
+    } catch (const Error& error) {
+        if (error.exit() != Exit::diverged) {
+            inputs_.finish_recording(*playback_, true);
+            throw;
+        }
+        report_.divergence = error.what();
     }
-    Profile* const stages = profile ? &*profile : nullptr;
-    Playback playback(*game, trace, options.headless ? Keep::hashes : Keep::nothing, stages);
-    std::optional<GoldenUpdate> golden;
-    if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
-    inputs.watch(playback);
-    GameRun run{.options = options,
-                .about = about,
-                .make = make,
-                .playback = playback,
-                .live = inputs.live,
-                .inputs = inputs.source(),
-                .script_steps = inputs.script_steps(),
-                .shelf = shelf,
-                .profile = stages};
-    Exit exit = play(run, inputs, report);
-    exit = std::max(exit, inputs.finish(playback, options, !report.divergence.empty()));
-    trace.commit();
-    if (profile) {
-        profile_file->write(profile->to_json());
-        profile_file->commit();
-    }
-    if (report.dropped.count() > 0)
-        remark(options.quiet, "late frames dropped {:.3f} s",
-               std::chrono::duration<double>(report.dropped).count());
-    const bool is_checked = (options.headless || json) && report.divergence.empty();
-    if (measure_budget && is_checked && exit == Exit::done && !Interrupt::requested())
-        report.budget = measure_budget(world.time());
-    if (json) write_report(*json, report, world);
-    if (!report.divergence.empty()) throw Error(Exit::diverged, report.divergence);
+}
+
+bool Session::frame() {
+    bool goes_on = false;
+    until_divergence([&] {
+        if (!window_) window_.emplace(*run_);
+        goes_on = !Interrupt::requested() && window_->show_frame();
+        if (!goes_on) end_ = window_->finish();
+    });
+    return goes_on;
+}
+
+void Session::complete_report() {
+    std::optional<std::int64_t> overflow;
+    if (report_.divergence.empty())
+        until_divergence([&] {
+            require_finite_energy(*run_, overflow);
+            report_.last = game_->world().energy();
+            report_.state_hash = game_->state_hash();
+            report_.readings = game_->readings();
+        });
+    report_.steps = overflow.value_or(playback_->steps());
+    report_.dropped = end_.dropped;
+    report_.wall = Clock::now() - start_;
+}
+
+void Session::commit_files() {
+    trace_->commit();
+    if (!profile_) return;
+    profile_file_->write(profile_->to_json());
+    profile_file_->commit();
+}
+
+Exit Session::finish() {
+    window_.reset();
+    complete_report();
+    const bool diverged = !report_.divergence.empty();
+    Exit exit = std::max(end_.exit, inputs_.finish(*playback_, options_, diverged));
+    commit_files();
+    if (report_.dropped.count() > 0)
+        remark(options_.quiet, "late frames dropped {:.3f} s",
+               std::chrono::duration<double>(report_.dropped).count());
+    const bool is_checked = (options_.headless || json_) && !diverged;
+    if (measure_budget_ && is_checked && exit == Exit::done && !Interrupt::requested())
+        report_.budget = measure_budget_(game_->world().time());
+    if (json_) write_report(*json_, report_, game_->world());
+    if (diverged) throw Error(Exit::diverged, report_.divergence);
     if (exit == Exit::no_display)
         fail(Exit::no_display,
              "the display has ended; the files of the run are complete up to there");
     if (Interrupt::requested()) return Exit::interrupted;
-    if (golden)
-        golden->commit();
-    else if (!options.golden.empty())
-        exit = std::max(exit, compare_with_golden(options, report.budget));
-    return std::max(exit, show_budget(report.budget, options.quiet));
+    if (golden_)
+        golden_->commit();
+    else if (!options_.golden.empty())
+        exit = std::max(exit, compare_with_golden(options_, report_.budget));
+    return std::max(exit, show_budget(report_.budget, options_.quiet));
+}
+
+/// Plays the game and writes the files of the run. In a page, the frames come after the return.
+Exit play_session(const std::shared_ptr<Session>& session) {
+    if (!session->has_window()) {
+        session->play();
+        return session->finish();
+    }
+    const auto exit = std::make_shared<Exit>(Exit::done);
+    repeat([session, exit] {
+        if (session->frame()) return true;
+        *exit = session->finish();
+        return false;
+    });
+    return *exit;
 }
 
 }  // namespace
 
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
-              const MeasureBudget& measure_budget, Shelf* shelf) try {
+              const MeasureBudget& measure_budget, const std::shared_ptr<Shelf>& shelf) try {
     if (options.what_if) return run_what_if(options, about, make);
-    const Exit exit = run_once(options, about, make, measure_budget, shelf);
+    const Exit exit =
+        play_session(std::make_shared<Session>(options, about, make, measure_budget, shelf));
     if (!options.junit.empty() && Interrupt::requested())
         write_junit_of_failure(options, Exit::interrupted, Interrupt::reason());
     return exit;

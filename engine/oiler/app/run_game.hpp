@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "oiler/app/options.hpp"
@@ -45,8 +46,10 @@ using MeasureBudget = std::function<std::vector<BudgetEntry>(double seconds)>;
 /// Plays a game with the given options and writes its files. With --headless or --json it checks
 /// the budget over the time played, and returns Exit::comparison_failed if the budget is exceeded.
 /// Throws Error{diverged} if the state or the energy is not finite; the files then end before that.
-/// With a shelf, a window can show other games.
+/// With a shelf, a window can show other games. In a page, it returns before the first frame;
+/// `make` and the texts of `about` must hold what they use.
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
-              const MeasureBudget& measure_budget = {}, Shelf* shelf = nullptr);
+              const MeasureBudget& measure_budget = {},
+              const std::shared_ptr<Shelf>& shelf = nullptr);
 
 }  // namespace oiler

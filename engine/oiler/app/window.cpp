@@ -11,7 +11,7 @@
 #include "oiler/overlay/legible.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/process/console.hpp"
-#include "oiler/process/interrupt.hpp"
+#include "oiler/whatif/what_if.hpp"
 
 namespace oiler {
 namespace {
@@ -59,6 +59,7 @@ GameWindow::GameWindow(GameRun& run)
       window_(open_window(first_size(run.options, run.about), title_,
                           run.options.has_size ? Fit::none : Fit::display)),
       opened_size_(window_->size()),
+      fps_(run.options.fps.value_or(window_->refresh_rate())),
       renderer_([this](const char* name) { return window_->procedure(name); }),
       play_(run),
       inspector_(run.playback.game(),
@@ -72,7 +73,15 @@ GameWindow::GameWindow(GameRun& run)
            uses_escape(controls_) ? "" : ", Escape quits");
 }
 
-int GameWindow::fps() const { return run_.options.fps.value_or(window_->refresh_rate()); }
+bool GameWindow::show_frame() {
+    const std::chrono::nanoseconds start = time_now();
+    const Span span(run_.profile, "frame");
+    if (!frame(start)) return false;
+    if (window_->paces_frames()) return true;
+    const Span wait(run_.profile, "wait");
+    limit_frame_rate(start, fps_);
+    return true;
+}
 
 bool GameWindow::frame(std::chrono::nanoseconds now) {
     const Layout parts = layout();
@@ -92,6 +101,7 @@ bool GameWindow::frame(std::chrono::nanoseconds now) {
     add_requests(requests, panels_, keys);
     if (panels_.help != helped) wait_for_help(requests);
     if (panels_.full_screen != filled) window_->fill_screen(panels_.full_screen);
+    take_wish(requests);
     control(requests, keys);
     draw(requests, keys, now);
     ++frames_;
@@ -128,6 +138,17 @@ void GameWindow::control(const Requests& requests, const Input& keys) {
     play_.control(requests, wants_restart(controls_, keys));
 }
 
+/// Adds the setting that the user wants through what is around a canvas.
+void GameWindow::take_wish(Requests& requests) {
+    const std::optional<std::string> wish = window_->take_wish();
+    if (!wish || !why_fixed(run_.options, run_.about).empty()) return;
+    try {
+        requests.stepping = parse_what_if(*wish, run_.playback.world().settings().stepping).front();
+    } catch (const Error& error) {
+        play_.complain(error.what());
+    }
+}
+
 /// Shows another game of the shelf, or why it cannot be shown.
 void GameWindow::take_from_shelf() {
     const std::optional<std::string> dropped = window_->take_dropped();
@@ -159,6 +180,10 @@ void GameWindow::draw(const Requests& requests, const Input& keys, std::chrono::
     window_->take_text(run_.playback.loop().takes_text());
     run_.live.shown = picture.camera;
     const std::string state = status(requests);
+    const Stepping& stepping = run_.playback.world().settings().stepping;
+    window_->tell({.line = play_.verdict().text,
+                   .status = state,
+                   .setting = fmt::format("{}@{}", stepping.method->name, stepping.rate.steps)});
     const Picture above = overlay(picture.background, state);
     const std::chrono::nanoseconds before = time_now();
     present(picture, above, state, keys, now);
@@ -279,19 +304,6 @@ NameButton GameWindow::key_names() const {
             has_sign ? window_->name_on_layout(static_cast<Key>(button.id())) : "";
         return name.empty() ? name_of(button) : name;
     };
-}
-
-RunEnd run_window(GameRun& run) {
-    GameWindow window(run);
-    const int fps = window.fps();
-    while (!Interrupt::requested()) {
-        const std::chrono::nanoseconds start = time_now();
-        const Span span(run.profile, "frame");
-        if (!window.frame(start)) break;
-        const Span wait(run.profile, "wait");
-        limit_frame_rate(start, fps);
-    }
-    return window.finish();
 }
 
 }  // namespace oiler

@@ -15,20 +15,17 @@
 
 namespace oiler {
 
-/// A game in a window with the keys of the loop. frame() makes one frame; its caller waits between
-/// the frames.
+/// A game in a window with the keys of the loop, in real time until the user quits, or the display
+/// or a replay ends.
 class GameWindow {
 public:
     /// Opens the window. The run must outlive it.
     explicit GameWindow(GameRun& run);
 
-    /// Polls, controls, steps and draws, at `now` of a monotonic clock. Returns whether the next
-    /// frame follows.
-    [[nodiscard]] bool frame(std::chrono::nanoseconds now);
+    /// Makes a frame and waits for the next. Returns whether that follows.
+    [[nodiscard]] bool show_frame();
     /// Ends the run after its last frame. Throws the divergence that stopped the game.
     [[nodiscard]] RunEnd finish();
-    /// The rate of frames, Hz.
-    [[nodiscard]] int fps() const;
 
 private:
     /// The parts of the window, in pixels.
@@ -45,10 +42,14 @@ private:
         [[nodiscard]] float share(int Size::*side) const;
     };
 
+    /// Polls, controls, steps and draws, at `now` of a monotonic clock. Returns whether the next
+    /// frame follows.
+    [[nodiscard]] bool frame(std::chrono::nanoseconds now);
     [[nodiscard]] bool has_line() const;
     [[nodiscard]] Layout layout() const;
     void control(const Requests& requests, const Input& keys);
     void take_from_shelf();
+    void take_wish(Requests& requests);
     void wait_for_help(Requests& requests);
     void draw(const Requests& requests, const Input& keys, std::chrono::nanoseconds now);
     void add_game_overlays(Picture& picture, const Input& keys, std::chrono::nanoseconds now);
@@ -64,6 +65,7 @@ private:
     std::span<const Control> controls_;  ///< of the game
     std::unique_ptr<Window> window_;
     Size opened_size_;
+    int fps_;
     Renderer renderer_;
     LivePlay play_;
     GameInspector inspector_;
@@ -76,8 +78,5 @@ private:
     bool help_pauses_ = false;  ///< the last help paused the game
     bool is_lost_ = false;      ///< the display has ended
 };
-
-/// Shows the game in a window in real time until the user quits, or the display or a replay ends.
-[[nodiscard]] RunEnd run_window(GameRun& run);
 
 }  // namespace oiler

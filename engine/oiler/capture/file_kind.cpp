@@ -14,6 +14,7 @@
 #include <string>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/read_number.hpp"
 
 namespace oiler {
 namespace {
@@ -77,7 +78,7 @@ bool is_json(const fs::path& path) {
 bool is_field(std::string_view field, Form form) {
     double number = 0;
     const char* const end = field.data() + field.size();
-    const auto read = std::from_chars(field.data(), end, number);
+    const auto read = read_number(field.data(), end, number);
     if (read.ec == std::errc{} && read.ptr == end) return true;
     const auto is_of_word = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';

@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "oiler/core/end_with_parent.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
@@ -94,7 +94,7 @@ void exec(const std::vector<std::string>& words, const Streams& streams, pid_t p
         dup2(streams.video, video_descriptor);
     for (const int number : {SIGPIPE, SIGXFSZ}) signal(number, SIG_DFL);
     setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    end_with_parent(SIGKILL);
     if (getppid() == parent) execvp("ffmpeg", arguments.data());
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "oiler/cli/output.hpp"
+#include "oiler/core/read_number.hpp"
 #include "oiler/core/version.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/process/parse.hpp"
@@ -142,7 +143,7 @@ void Arguments::add_positive(const std::string& name, std::optional<double>& tar
     const auto set = [name, type, &target](const std::string& words) {
         const char* const end = words.data() + words.size();
         double value = 0;
-        const auto [last, error] = std::from_chars(words.data(), end, value);
+        const auto [last, error] = read_number(words.data(), end, value);
         if (error != std::errc() || last != end || !(value > 0) || !std::isfinite(value))
             throw CLI::ValidationError(fmt::format("{} {}: give a number above 0, {}such as 0.01",
                                                    name, words, unit_of(type)));

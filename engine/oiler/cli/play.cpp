@@ -75,17 +75,23 @@ struct PlayCommand {
         .summary = "Play a scene file in a window, as frames or as numbers",
         .example = "assets/scenes/cloth.toml"};
 
-    static Exit parse_and_run(int argc, char** argv) {
-        constexpr About program{.name = "oiler play", .title = "Play a scene file"};
-        std::optional<SceneShelf> shelf;
+    /// What the run holds to its end.
+    struct Shown {
+        std::shared_ptr<SceneShelf> shelf;
         std::string name;
         std::string text;
+        std::string title;
+    };
+
+    static Exit parse_and_run(int argc, char** argv) {
+        constexpr About program{.name = "oiler play", .title = "Play a scene file"};
+        const auto shown = std::make_shared<Shown>();
         const auto read = [&](const std::string& path, const std::optional<Manifest>& from) {
             const SceneFile file = find_scene(path, from);
-            text = file.text;
-            shelf.emplace(path, parse_scene(text, file.name));
-            name = std::filesystem::path(file.name).stem().string();
-            return describe(*shelf->scene(), name, text);
+            shown->text = file.text;
+            shown->shelf = std::make_shared<SceneShelf>(path, parse_scene(file.text, file.name));
+            shown->name = std::filesystem::path(file.name).stem().string();
+            return describe(*shown->shelf->scene(), shown->name, shown->text);
         };
         CommandLine line = parse_command_line(argc, argv, program, read);
         if (!line.text.empty()) {
@@ -93,16 +99,16 @@ struct PlayCommand {
             return Exit::done;
         }
         const bool watched = is_watched(line.options);
-        const std::string title = shelf->title();
-        line.about.title = title;
-        const auto make = [&](const Settings& settings) {
-            return std::make_unique<SceneGame>(shelf->scene(), settings, watched);
+        shown->title = shown->shelf->title();
+        line.about.title = shown->title;
+        const auto make = [shown, watched](const Settings& settings) {
+            return std::make_unique<SceneGame>(shown->shelf->scene(), settings, watched);
         };
-        const auto measure_budget = [&](double seconds) {
-            return check(*shelf->scene(), line.options, seconds);
+        const auto measure_budget = [shown, options = line.options](double seconds) {
+            return check(*shown->shelf->scene(), options, seconds);
         };
         return run_game(line.options, line.about, make, measure_budget,
-                        watched ? &*shelf : nullptr);
+                        watched ? shown->shelf : nullptr);
     }
 };
 

@@ -176,7 +176,10 @@ Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping
     places_ = 0;
     file_ = file;
     written_ = written(file);
-    scene_ = std::make_shared<const Scene>(std::move(scene));
+    {
+        const std::lock_guard lock(mutex_);
+        scene_ = std::make_shared<const Scene>(std::move(scene));
+    }
     return {title(), stepping};
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -86,7 +86,10 @@ public:
     [[nodiscard]] std::optional<Taken> take(const AnyGame& shown,
                                             const std::optional<std::string>& dropped) override;
     /// Any thread may ask.
-    [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_; }
+    [[nodiscard]] std::shared_ptr<const Scene> scene() const {
+        const std::lock_guard lock(mutex_);
+        return scene_;
+    }
     /// The scene's title and its file.
     [[nodiscard]] std::string title() const;
 
@@ -99,7 +102,8 @@ private:
     [[nodiscard]] bool has_changed();
 
     std::filesystem::path file_;
-    std::atomic<std::shared_ptr<const Scene>> scene_;
+    mutable std::mutex mutex_;
+    std::shared_ptr<const Scene> scene_;  ///< guarded by mutex_
     std::filesystem::file_time_type written_{};
     int places_ = 0;  ///< of the last request
     Clock::time_point next_look_{};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/cli/startable.hpp"
 
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "oiler/core/end_with_parent.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/scene/read.hpp"
@@ -99,8 +99,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
 /// Executes a program in a new process, which gets SIGTERM when its parent ends.
 [[noreturn]] void become_child(const std::vector<char*>& arguments, pid_t parent) {
     constexpr int not_found = 127;  // as a shell has it
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    // The parent may have ended before.
+    end_with_parent(SIGTERM);
     if (getppid() == parent) execv(arguments.front(), arguments.data());
     _exit(not_found);
 }

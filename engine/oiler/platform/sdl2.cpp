@@ -206,7 +206,7 @@ public:
             const int top = window.height - share(window.height, of_game.height);
             window = {share(window.width, of_game.width), window.height - top};
             move_up(event, top);
-            events_->handle(event, window, game, loop, of_game);
+            events_->handle(event, window, {game, loop, of_game});
             if (event.type == SDL_DROPFILE) {
                 dropped_ = event.drop.file;
                 sdl_->free(event.drop.file);

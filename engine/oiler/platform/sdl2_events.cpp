@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/platform/sdl2_events.hpp"
 
-#include <algorithm>
 #include <optional>
 
 namespace oiler {
@@ -23,38 +22,12 @@ std::optional<Button> pad_button(std::uint8_t button) {
     return static_cast<Pad>(button);
 }
 
-/// Whether a key acts as a key while text is entered.
-bool edits_text(Button key) {
-    constexpr Button keys[]{Key::enter, Key::escape, Key::backspace, Key::tab,
-                            Key::left,  Key::right,  Key::up,        Key::down};
-    return std::ranges::find(keys, key) != std::end(keys);
-}
-
-Point canvas_point(int x, int y, Size window) {
-    const auto width = static_cast<float>(window.width);
-    const auto height = static_cast<float>(window.height);
-    const float scale = std::min(width / canvas_width, height / canvas_height);
-    return {canvas_width / 2 + (static_cast<float>(x) + 0.5F - width / 2) / scale,
-            canvas_height / 2 - (static_cast<float>(y) + 0.5F - height / 2) / scale};
-}
-
-int x_of(const SDL_Event& event) {
-    return event.type == SDL_MOUSEMOTION ? event.motion.x : event.button.x;
-}
-
-/// A mouse that the queue does not `take` only releases buttons.
-void handle_mouse(const SDL_Event& event, Size window, InputQueue& queue, bool take) {
-    if (event.type == SDL_MOUSEWHEEL) {
-        if (take) queue.turn_wheel(event.wheel.y);
-        return;
-    }
-    const bool moves = event.type == SDL_MOUSEMOTION;
-    if (take)
-        queue.point_at(canvas_point(x_of(event), moves ? event.motion.y : event.button.y, window));
-    if (moves) return;
-    const bool down = event.button.state == SDL_PRESSED;
-    const auto button = mouse_button(event.button.button);
-    if (button && (take || !down)) queue.set(*button, down);
+void hand_out_mouse(const SDL_Event& event, Size part, const Receivers& receivers) {
+    if (event.type == SDL_MOUSEWHEEL) return receivers.turn_wheel(event.wheel.y);
+    if (event.type == SDL_MOUSEMOTION)
+        return receivers.move_mouse(event.motion.x, event.motion.y, part);
+    receivers.move_mouse(event.button.x, event.button.y, part, mouse_button(event.button.button),
+                         event.button.state == SDL_PRESSED);
 }
 
 }  // namespace
@@ -66,31 +39,22 @@ SdlEvents::~SdlEvents() {
     for (const auto& [id, controller] : controllers_) sdl_.close_controller(controller.handle);
 }
 
-void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop,
-                       const Window::OfGame& of_game) {
+void SdlEvents::handle(const SDL_Event& event, Size part, const Receivers& receivers) {
+    InputQueue& game = receivers.game;
     switch (event.type) {
         case SDL_KEYDOWN:
         case SDL_KEYUP:
-            return handle_key(event.key, game, loop, of_game.escape);
+            return handle_key(event.key, receivers);
         case SDL_TEXTINPUT:
             return game.enter(event.text.text);
         case SDL_MOUSEMOTION:
         case SDL_MOUSEBUTTONDOWN:
         case SDL_MOUSEBUTTONUP:
         case SDL_MOUSEWHEEL:
-            handle_mouse(
-                event, window, game,
-                of_game.mouse && (event.type == SDL_MOUSEWHEEL || x_of(event) < window.width));
-            return handle_mouse(event, window, loop, true);
+            return hand_out_mouse(event, part, receivers);
         case SDL_WINDOWEVENT:
-            if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) {
-                game.release_all();
-                loop.release_all();
-            }
-            if (event.window.event == SDL_WINDOWEVENT_LEAVE) {
-                game.point_at(std::nullopt);
-                loop.point_at(std::nullopt);
-            }
+            if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) receivers.release_all();
+            if (event.window.event == SDL_WINDOWEVENT_LEAVE) receivers.leave();
             return;
         case SDL_CONTROLLERDEVICEADDED:
             return plug_in(event.cdevice.which);
@@ -108,19 +72,12 @@ void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, In
     }
 }
 
-void SdlEvents::handle_key(const SDL_KeyboardEvent& event, InputQueue& game, InputQueue& loop,
-                           bool escape_is_of_game) const {
+void SdlEvents::handle_key(const SDL_KeyboardEvent& event, const Receivers& receivers) const {
     if (event.repeat != 0) return;
     const auto code = static_cast<std::uint32_t>(event.keysym.scancode);
     if (code >= 256) return;
     const auto button = Button::of_id(static_cast<std::uint16_t>(code));
-    if (!button) return;
-    const bool down = event.type == SDL_KEYDOWN;
-    loop.set(*button, down);
-    if (is_of_loop(*button)) return;
-    if (text_ && down && !edits_text(*button)) return;
-    if (!escape_is_of_game && down && *button == Button(Key::escape)) return;
-    game.set(*button, down);
+    if (button) receivers.set_key(*button, event.type == SDL_KEYDOWN, text_);
 }
 
 void SdlEvents::handle_axis(const SDL_ControllerAxisEvent& event, InputQueue& game) {

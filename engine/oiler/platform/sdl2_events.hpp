@@ -7,9 +7,8 @@
 #include <map>
 
 #include "oiler/core/size.hpp"
-#include "oiler/input/input.hpp"
+#include "oiler/platform/hand_out.hpp"
 #include "oiler/platform/providers.hpp"
-#include "oiler/platform/surface.hpp"
 
 namespace oiler {
 
@@ -35,9 +34,8 @@ public:
     SdlEvents(const SdlEvents&) = delete;
     SdlEvents& operator=(const SdlEvents&) = delete;
 
-    /// `window` is the size of the game's part in the units of the mouse.
-    void handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop,
-                const Window::OfGame& of_game = {});
+    /// `part` is the size of the game's part of the window in the units of the mouse.
+    void handle(const SDL_Event& event, Size part, const Receivers& receivers);
     void take_text(bool on);
     [[nodiscard]] std::string name_on_layout(Key key) const;
 
@@ -48,8 +46,7 @@ private:
         std::array<bool, 2> triggers;
     };
 
-    void handle_key(const SDL_KeyboardEvent& event, InputQueue& game, InputQueue& loop,
-                    bool escape_is_of_game) const;
+    void handle_key(const SDL_KeyboardEvent& event, const Receivers& receivers) const;
     void handle_axis(const SDL_ControllerAxisEvent& event, InputQueue& game);
     void plug_in(int index);
     void unplug(SDL_JoystickID id, InputQueue& game);

@@ -33,6 +33,11 @@ bool has_display() {
     return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
 }
 
+void repeat(std::function<bool()> frame) {
+    while (frame()) {
+    }
+}
+
 std::unique_ptr<Surface> open_offscreen(Offscreen which) {
     limit_llvmpipe();
     if (which == Offscreen::egl) return open_egl();

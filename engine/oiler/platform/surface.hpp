@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,20 @@ public:
     [[nodiscard]] virtual std::string name_on_layout(Key key) const = 0;
     /// Lets keys enter text, except those that edit it.
     virtual void take_text(bool on) = 0;
+    /// What the window shows, in words.
+    struct Told {
+        std::string line;     ///< on the error of the timestep
+        std::string status;   ///< of the loop, such as a pause
+        std::string setting;  ///< such as "rk4@120"
+        friend bool operator==(const Told&, const Told&) = default;
+    };
+    /// Tells it to what is around a canvas, for people who do not see that. A window has nothing
+    /// around it.
+    virtual void tell(const Told&) {}
+    /// The setting that the user wants through what is around a canvas, such as "rk4@120".
+    [[nodiscard]] virtual std::optional<std::string> take_wish() { return std::nullopt; }
+    /// Whether the display itself makes the frames wait.
+    [[nodiscard]] virtual bool paces_frames() const { return false; }
     /// Shows framebuffer 0.
     virtual void present() = 0;
 };
@@ -79,6 +94,10 @@ enum class Fit {
 /// Opens a window of about `size` on the user's display.
 /// Throws Error{no_display}, naming --headless, without a display, SDL2 or GL 3.3.
 [[nodiscard]] std::unique_ptr<Window> open_window(Size size, const std::string& title, Fit fit);
+
+/// Calls the function until it returns false. In a page, the browser calls it later, for each
+/// frame.
+void repeat(std::function<bool()> frame);
 
 /// Opens a context without a screen. Its library is loaded at run time.
 /// Throws Error{no_display}, naming the Debian package to install.

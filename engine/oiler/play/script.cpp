@@ -12,6 +12,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/nearest.hpp"
+#include "oiler/core/read_number.hpp"
 #include "oiler/core/utf8.hpp"
 
 namespace oiler {
@@ -47,7 +48,7 @@ public:
     [[nodiscard]] Number take_number(std::string_view what) {
         const std::string_view word = take();
         Number number{};
-        const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        const auto [last, error] = read_number(word.data(), word.data() + word.size(), number);
         if (error != std::errc() || last != word.data() + word.size())
             refuse(fmt::format("'{}' is no {}", word, what));
         if constexpr (std::is_floating_point_v<Number>)
@@ -60,7 +61,7 @@ public:
         const std::string_view word = rest_.substr(0, end);
         double seconds = 0;
         const char* const last = word.data() + word.size();
-        const auto [stop, error] = std::from_chars(word.data(), last, seconds);
+        const auto [stop, error] = read_number(word.data(), last, seconds);
         if (error != std::errc() || stop + 1 != last || *stop != 's' || !std::isfinite(seconds))
             return std::nullopt;
         (void)take();

@@ -11,6 +11,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/nearest.hpp"
+#include "oiler/core/read_number.hpp"
 
 namespace oiler {
 
@@ -25,7 +26,7 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, Target& target, W
     const auto parse = [=, &target](const std::string& words) {
         const char* const end = words.data() + words.size();
         Whole value = 0;
-        const auto [last, error] = std::from_chars(words.data(), end, value);
+        const auto [last, error] = read_number(words.data(), end, value);
         if (error != std::errc() || last != end || value < low || value > high)
             throw CLI::ValidationError(
                 fmt::format("{} {}: give a whole number from {} to {}", name, words, low, high));
@@ -40,7 +41,7 @@ inline CLI::Option* add_seconds(CLI::App& app, const std::string& name,
     const auto parse = [name, &target](const std::string& words) {
         const char* const end = words.data() + words.size();
         double value = 0;
-        const auto [last, error] = std::from_chars(words.data(), end, value);
+        const auto [last, error] = read_number(words.data(), end, value);
         if (error != std::errc() || last != end || !(value >= 0) || !std::isfinite(value))
             throw CLI::ValidationError(
                 fmt::format("{} {}: give a number of seconds, such as 60", name, words));

@@ -14,7 +14,7 @@ endif()
 set(OILER_GLAD ${CMAKE_CURRENT_BINARY_DIR}/glad)
 add_custom_command(
   OUTPUT ${OILER_GLAD}/src/gl.c ${OILER_GLAD}/include/glad/gl.h
-  COMMAND ${OILER_GLAD_PYTHON} -m glad --quiet --reproducible --api gl:core=3.3
+  COMMAND ${OILER_GLAD_PYTHON} -m glad --quiet --reproducible --merge --api gl:core=3.3,gles2=3.0
           --extensions GL_KHR_debug --out-path ${OILER_GLAD} c --mx
   COMMENT "Generating the GL loader (Debian package python3-glad)"
   VERBATIM)

@@ -9,11 +9,22 @@
 namespace oiler {
 namespace {
 
+/// The first lines of a shader of OpenGL ES, in place of the `#version` of OpenGL.
+constexpr std::string_view start_of_embedded =
+    "#version 300 es\n"
+    "precision highp float;\n"
+    "precision highp int;\n"
+    "precision highp sampler2D;\n"
+    "precision highp usampler2D;\n";
+
 void attach(const Gl& gl, GLuint program, GLenum kind, std::string_view source) {
     const GLuint shader = gl.CreateShader(kind);
-    const char* text = source.data();
-    const auto length = static_cast<GLint>(source.size());
-    gl.ShaderSource(shader, 1, &text, &length);
+    const std::string_view rest = source.substr(source.find('\n') + 1);
+    const std::string_view start =
+        is_embedded(gl) ? start_of_embedded : source.substr(0, source.size() - rest.size());
+    const char* const texts[]{start.data(), rest.data()};
+    const GLint lengths[]{static_cast<GLint>(start.size()), static_cast<GLint>(rest.size())};
+    gl.ShaderSource(shader, 2, texts, lengths);
     gl.CompileShader(shader);
     gl.AttachShader(program, shader);
     gl.DeleteShader(shader);

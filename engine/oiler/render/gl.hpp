@@ -15,6 +15,9 @@ namespace oiler {
 /// window and an off-screen surface.
 using Gl = GladGLContext;
 
+/// Whether the functions are those of OpenGL ES, as in a browser.
+[[nodiscard]] inline bool is_embedded(const Gl& gl) { return gl.ES_VERSION_2_0 != 0; }
+
 /// The name of a GL object. The destructor deletes the object.
 class GlName {
 public:

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "oiler/core/error.hpp"
@@ -14,17 +15,36 @@
 namespace oiler {
 namespace {
 
+bool says_embedded(const Gl& gl) {
+    const auto* const version =
+        gl.GetString ? reinterpret_cast<const char*>(gl.GetString(GL_VERSION)) : nullptr;
+    return version && std::string_view(version).starts_with("OpenGL ES");
+}
+
 Gl load_functions(const Renderer::LoadProcedure& load) {
     Gl gl{};
     const auto call = [](void* user, const char* name) -> GLADapiproc {
         return (*static_cast<const Renderer::LoadProcedure*>(user))(name);
     };
-    const int version =
-        gladLoadGLContextUserPtr(&gl, call, const_cast<Renderer::LoadProcedure*>(&load));
-    if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < 33)
-        fail(Exit::no_display, "this surface offers OpenGL {}.{}; Oiler needs 3.3; try --headless",
+    const auto user = const_cast<Renderer::LoadProcedure*>(&load);
+    int version = gladLoadGLContextUserPtr(&gl, call, user);
+    const bool is_es = says_embedded(gl);
+    if (is_es) version = gladLoadGLES2ContextUserPtr(&(gl = {}), call, user);
+    const int least = is_es ? 30 : 33;
+    if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < least)
+        fail(Exit::no_display,
+             "this surface offers OpenGL {}.{}; Oiler needs 3.3, or ES 3.0; try --headless",
              GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version));
     return gl;
+}
+
+/// Rows of three of the four bytes of each pixel.
+std::vector<std::uint8_t> without_alpha(std::span<const std::uint8_t> rgba) {
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+        rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+    return rgb;
 }
 
 const void* as_pointer(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
@@ -155,12 +175,14 @@ struct Renderer::Impl {
 
     /// Sets all state that other users of the context (an inspector) may have changed.
     void set_state() const {
-        for (const GLenum off : {GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE,
-                                 GL_FRAMEBUFFER_SRGB, GL_DITHER}) {
+        for (const GLenum off :
+             {GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DITHER})
             gl.Disable(off);
+        if (!is_embedded(gl)) {
+            gl.Disable(GL_FRAMEBUFFER_SRGB);
+            gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
         }
         gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-        gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
         gl.Enable(GL_BLEND);
         gl.BlendEquation(GL_FUNC_ADD);
         blend_straight_colours();
@@ -211,7 +233,7 @@ struct Renderer::Impl {
         gl.BindTexture(GL_TEXTURE_2D, splat_texels);
         gl.BindSampler(0, 0);
         gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16, size.width, size.height, 0, GL_RGBA,
+        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16UI, size.width, size.height, 0, GL_RGBA_INTEGER,
                       GL_UNSIGNED_SHORT, splats.texels().data());
         splat_image.use(gl, size);
         gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
@@ -302,13 +324,16 @@ std::span<const char> Renderer::font() { return embedded::font(); }
 
 void Renderer::read(Pixels& pixels) const {
     const Size size = impl_->framebuffer.size();
-    pixels.size = size;
-    pixels.rgb.resize(std::size_t{3} * static_cast<std::size_t>(size.width) *
-                      static_cast<std::size_t>(size.height));
     const Gl& gl = impl_->gl;
+    const bool has_alpha = is_embedded(gl);  // OpenGL ES reads no three channels
+    pixels.size = size;
+    pixels.rgb.resize((has_alpha ? std::size_t{4} : std::size_t{3}) *
+                      static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, impl_->framebuffer.name());
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.ReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, pixels.rgb.data());
+    gl.ReadPixels(0, 0, size.width, size.height, has_alpha ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE,
+                  pixels.rgb.data());
+    if (has_alpha) pixels.rgb = without_alpha(pixels.rgb);
 }
 
 void Renderer::blit() const {

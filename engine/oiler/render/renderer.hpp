@@ -45,12 +45,13 @@ struct Overlay {
 };
 
 /// Draws pictures into its own framebuffer object, so that a window, OSMesa and EGL show the same
-/// pixels. The GL 3.3 core context must stay current for its lifetime.
+/// pixels. The context, GL 3.3 core or ES 3.0, must
+/// stay current for its lifetime.
 class Renderer {
 public:
     using LoadProcedure = std::function<void (*(const char*))()>;
 
-    /// Throws Error{no_display} if the context is older than 3.3.
+    /// Throws Error{no_display} if the context is older.
     explicit Renderer(const LoadProcedure& load);
     ~Renderer();
     Renderer(const Renderer&) = delete;

@@ -3,13 +3,25 @@
 
 #include <algorithm>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 #include "oiler/process/priority.hpp"
 
 namespace oiler {
+namespace {
 
-Aside::Aside() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
+/// The time in each frame. More makes frames late.
+constexpr std::chrono::milliseconds time_without_thread{3};
+
+}  // namespace
+
+Aside::Aside(bool wants_thread) {
+    if (wants_thread) try {
+            thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+        } catch (const std::system_error&) {
+        }
+}
 
 void Aside::begin(AlongFrom from) {
     const std::lock_guard lock(mutex_);
@@ -29,6 +41,13 @@ void Aside::add(const Recording::Event& event) {
 LiveFigures Aside::play_until(std::int64_t steps, std::chrono::nanoseconds time) {
     std::unique_lock lock(mutex_);
     if (std::exchange(mail_.back().steps, steps) != steps) posted_.notify_one();
+    if (!thread_.joinable()) {
+        const Clock::time_point end = Clock::now() + time_without_thread;
+        for (Clock::time_point now = Clock::now(); now < end && (has_work() || is_verdict_due(now));
+             now = Clock::now())
+            go_on(lock);
+        return figures_;
+    }
     published_.wait_for(lock, time,
                         [&] { return figures_.played > steps || figures_.has_stopped; });
     return figures_;
@@ -37,27 +56,35 @@ LiveFigures Aside::play_until(std::int64_t steps, std::chrono::nanoseconds time)
 void Aside::run(const std::stop_token& stop) {
     lower_priority_of_thread();
     std::unique_lock lock(mutex_);
-    while (wait(lock, stop)) {
-        std::vector<Posted> posted(1);
-        posted.back().steps = mail_.back().steps;
-        posted.swap(mail_);
-        lock.unlock();
-        for (Posted& one : posted) take(std::move(one));
-        work();
-        lock.lock();
-        if (mail_.size() == 1) figures_ = known();
-        published_.notify_one();
-    }
+    while (wait(lock, stop)) go_on(lock);
+}
+
+void Aside::go_on(std::unique_lock<std::mutex>& lock) {
+    std::vector<Posted> posted(1);
+    posted.back().steps = mail_.back().steps;
+    posted.swap(mail_);
+    lock.unlock();
+    for (Posted& one : posted) take(std::move(one));
+    work();
+    lock.lock();
+    if (mail_.size() == 1) figures_ = known();
+    published_.notify_one();
+}
+
+bool Aside::has_work() const {
+    return mail_.size() > 1 || next_ || (along_ && along_->is_behind(mail_.back().steps));
+}
+
+bool Aside::is_verdict_due(Clock::time_point now) const {
+    return along_ && !along_->is_judged() && now >= next_verdict_;
 }
 
 bool Aside::wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
-    const auto has_work = [&] {
-        return mail_.size() > 1 || next_ || (along_ && along_->is_behind(mail_.back().steps));
-    };
+    const auto has_any = [this] { return has_work(); };
     if (along_ && !along_->is_judged())
-        posted_.wait_until(lock, stop, next_verdict_, has_work);
+        posted_.wait_until(lock, stop, next_verdict_, has_any);
     else
-        posted_.wait(lock, stop, has_work);
+        posted_.wait(lock, stop, has_any);
     return !stop.stop_requested();
 }
 

@@ -15,11 +15,11 @@
 namespace oiler {
 
 /// A thread on which runs play along with a game. It lags behind if they take longer than the time
-/// that the game waits for them.
+/// that the game waits for them. If the machine gives no thread, they play along in 3 ms of each
+/// frame.
 class Aside {
 public:
-    /// Throws std::system_error if the machine gives no thread.
-    Aside();
+    explicit Aside(bool wants_thread = true);
     Aside(const Aside&) = delete;
     Aside& operator=(const Aside&) = delete;
 
@@ -44,6 +44,10 @@ private:
     void run(const std::stop_token& stop);
     /// Waits for what to do next; returns whether there is anything.
     bool wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+    [[nodiscard]] bool has_work() const;
+    [[nodiscard]] bool is_verdict_due(Clock::time_point now) const;
+    /// Takes the mail and plays a step along. The mutex is unlocked meanwhile.
+    void go_on(std::unique_lock<std::mutex>& lock);
     void take(Posted posted);
     /// Whether the round that is played along goes on to its end before the next begins.
     [[nodiscard]] bool goes_on_before_next() const;
@@ -57,7 +61,7 @@ private:
     std::vector<Posted> mail_ = std::vector<Posted>(1);  ///< never empty; the last one grows
     LiveFigures figures_;
 
-    // Of the thread alone:
+    // Of the thread alone, if there is one:
     std::unique_ptr<PlayAlong> along_;
     std::optional<Posted> next_;  ///< begins after it
     Clock::time_point next_verdict_{};

@@ -2,7 +2,6 @@
 #include "oiler/whatif/live_what_if.hpp"
 
 #include <chrono>
-#include <system_error>
 #include <utility>
 
 namespace oiler {
@@ -13,13 +12,9 @@ constexpr std::chrono::microseconds time_of_frame{200};  // a timer is late by s
 }  // namespace
 
 LiveWhatIf::LiveWhatIf(RecordedPlay play, const MakeGame& make, Pace pace)
-    : make_(make), pace_(pace), play_(std::move(play)) {
+    : make_(make), play_(std::move(play)) {
     play_.settings.threads = 1;
-    try {
-        if (pace == Pace::aside) aside_ = std::make_unique<Aside>();
-    } catch (const std::system_error&) {
-        stop("The machine gives no thread to measure the timestep's error.");
-    }
+    if (pace != Pace::own) aside_ = std::make_unique<Aside>(pace == Pace::aside);
 }
 
 AlongFrom LiveWhatIf::start_of_game() const {
@@ -49,11 +44,11 @@ void LiveWhatIf::start_from(const AnyGame& game, std::int64_t first) {
 void LiveWhatIf::measure(std::int64_t first, AlongFrom from) {
     first_ = first;
     before_ = {};
-    is_measuring_ = pace_ == Pace::own || aside_;
+    is_measuring_ = true;
     if (aside_) {
         aside_->begin(std::move(from));
         figures_ = aside_->play_until(0, time_of_frame);
-    } else if (is_measuring_) {
+    } else {
         own_ = std::make_unique<PlayAlong>(std::move(from), own_.get());
         figures_ = own_->figures();
     }

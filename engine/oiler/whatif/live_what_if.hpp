@@ -15,9 +15,9 @@ namespace oiler {
 /// settings play along with the player's input. The game never sees them.
 class LiveWhatIf {
 public:
-    /// aside: on a thread of its own, for which a frame waits 0.3 ms at most; own: in the calls,
-    /// with all the time that it needs.
-    enum class Pace { aside, own };
+    /// aside: on a thread of its own, for which a frame waits 0.3 ms at most; frame: in the calls,
+    /// for 3 ms each, as if the machine gave no thread; own: with all the time that it needs.
+    enum class Pace { aside, frame, own };
 
     /// Measures nothing before a start. `play` has the game's settings and controls. `make` is
     /// called by the other thread, too.
@@ -55,14 +55,13 @@ private:
     [[nodiscard]] AlongFrom start_of_game() const;
 
     const MakeGame& make_;
-    Pace pace_;
     RecordedPlay play_;  ///< without events
     bool is_measuring_ = false;
     std::int64_t first_ = 0;
     Input before_{};
     LiveFigures figures_;
     std::unique_ptr<PlayAlong> own_;
-    std::unique_ptr<Aside> aside_;  ///< null at its own pace, and if the machine gives no thread
+    std::unique_ptr<Aside> aside_;  ///< null at its own pace
 };
 
 /// Hands on the input of each step, and records it for the runs that play along.

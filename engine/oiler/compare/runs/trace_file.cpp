@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/read_number.hpp"
 
 namespace oiler {
 namespace {
@@ -82,7 +83,7 @@ bool is_shortest_float(double value) {
                                           std::chars_format::scientific)
                                 .ptr;
     double again = 0;
-    std::from_chars(digits.data(), end, again);
+    read_number(digits.data(), end, again);
     return again == value;
 }
 
@@ -95,7 +96,7 @@ public:
     template <class Number>
     [[nodiscard]] bool read(Number& number) {
         if (at_ == nullptr) return false;
-        const auto [after, error] = std::from_chars(at_, end_, number);
+        const auto [after, error] = read_number(at_, end_, number);
         if (error != std::errc{} || (after != end_ && *after != ',')) return false;
         at_ = after == end_ ? nullptr : after + 1;
         return true;
