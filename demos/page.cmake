@@ -56,16 +56,12 @@ endif()
 string(APPEND list "  ],\n  hashes: ${hashes}\n};\n")
 file(CONFIGURE OUTPUT ${folder}/list.js CONTENT "${list}" @ONLY)
 
-# A page that is opened from a disk can fetch nothing, so that its program is in scripts, too.
-file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/assets/web/*)
-file(GLOB pictures ${PROJECT_SOURCE_DIR}/assets/pictures/menu/*.png)
+file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/assets/web/*
+                                  ${PROJECT_SOURCE_DIR}/assets/pictures/menu/*.png)
 add_custom_command(
-  OUTPUT ${folder}/wasm.js
-  DEPENDS page ${files} ${pictures}
-  COMMAND cp ${files} ${folder}
-  COMMAND mkdir -p ${folder}/pictures
-  COMMAND cp ${pictures} ${folder}/pictures
-  COMMAND cp $<TARGET_FILE_DIR:page>/oiler.wasm ${folder}
-  COMMAND (printf "function oilerProgram() {\\n" && cat $<TARGET_FILE:page> && printf "return createOiler\;\\n}\\n") > ${folder}/program.js
-  COMMAND (printf "oilerWasm = \\\"" && base64 -w 0 ${folder}/oiler.wasm && printf "\\\"\;\\n") > ${folder}/wasm.js)
-add_custom_target(page_folder ALL DEPENDS ${folder}/wasm.js)
+  OUTPUT ${folder}/program.js
+  DEPENDS page ${files} page_folder.sh
+  COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/page_folder.sh $<TARGET_FILE_DIR:page>/oiler ${folder}
+          ${PROJECT_SOURCE_DIR}/assets
+  VERBATIM)
+add_custom_target(page_folder ALL DEPENDS ${folder}/program.js)

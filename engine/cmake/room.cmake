@@ -8,7 +8,8 @@
 #                  $<BUILD_INTERFACE:>, because an installed room does not need them
 #   private_headers  headers that only its own files include: they are not installed; optional
 #   hot            files that run for each body or pixel; optional
-# Files that are not hot are compiled at -O1: sooner by a fifth, while frames cost the same.
+# Files that are not hot are compiled at -O1: sooner by a fifth, while frames cost the same. For a page,
+# which is loaded, they are compiled for size.
 # A link PkgConfig::OILER_NAME is the pkg-config module NAME; the installed package looks for it.
 cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME room)
 foreach(below IN LISTS rooms)
@@ -26,7 +27,7 @@ if(sources)
   target_link_libraries(oiler_${room} PUBLIC oiler::options ${room_links} ${links}
                                       PRIVATE $<BUILD_INTERFACE:oiler_warnings> ${private_links})
   set_target_properties(oiler_${room} PROPERTIES UNITY_BUILD ${OILER_UNITY} UNITY_BUILD_BATCH_SIZE 8)
-  target_compile_options(oiler_${room} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+  target_compile_options(oiler_${room} PRIVATE $<$<NOT:$<CONFIG:Debug>>:$<IF:$<BOOL:${EMSCRIPTEN}>,-Os,-O1>>)
   if(hot)
     # Without errno, a square root is one instruction.
     set_source_files_properties(${hot} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON

@@ -77,7 +77,7 @@ function(pkg_check_modules)
   if(ARGV0 STREQUAL OILER_imgui)
     web_sources(imgui imgui.cpp imgui_draw.cpp imgui_tables.cpp imgui_widgets.cpp)
   elseif(ARGV0 STREQUAL OILER_libdeflate)
-    web_sources(libdeflate lib/adler32.c lib/crc32.c lib/deflate_compress.c lib/utils.c
-                lib/zlib_compress.c)
+    web_sources(libdeflate lib/adler32.c lib/crc32.c lib/deflate_compress.c lib/deflate_decompress.c
+                lib/gzip_compress.c lib/gzip_decompress.c lib/utils.c lib/zlib_compress.c)
   endif()
 endfunction()

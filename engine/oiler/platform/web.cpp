@@ -18,23 +18,25 @@
 #include "oiler/platform/hand_out.hpp"
 #include "oiler/platform/web_keys.hpp"
 
-EM_JS(void, oiler_page_title, (const char* title), { Module.onTitle ?.(UTF8ToString(title)); });
-EM_JS(void, oiler_page_text, (const char* line, const char* status, const char* setting),
-      { Module.onText ?.(UTF8ToString(line), UTF8ToString(status), UTF8ToString(setting)); });
-EM_JS(void, oiler_page_end, (const char* reason), { Module.onEnd ?.(UTF8ToString(reason)); });
-EM_JS(char*, oiler_page_wish, (), {
-    const wish = Module.takeWish ?.();
+// clang-format off: this is JavaScript.
+EM_JS(void, oiler_web_title, (const char* title), { Module.onTitle?.(UTF8ToString(title)); });
+EM_JS(void, oiler_web_text, (const char* line, const char* status, const char* setting), {
+    Module.onText?.(UTF8ToString(line), UTF8ToString(status), UTF8ToString(setting));
+});
+EM_JS(void, oiler_web_end, (const char* reason), { Module.onEnd?.(UTF8ToString(reason)); });
+EM_JS(char*, oiler_web_wish, (), {
+    const wish = Module.takeWish?.();
     return wish ? stringToNewUTF8(wish) : 0;
 });
-EM_JS(char*, oiler_page_file, (), {
-    const file = Module.takeFile ?.();
+EM_JS(char*, oiler_web_file, (), {
+    const file = Module.takeFile?.();
     return file ? stringToNewUTF8(file) : 0;
 });
-EM_JS(bool, oiler_page_closes, (), { return Module.closes == = true; });
-EM_JS(void, oiler_page_takes_text, (bool on), { Module.onTextInput ?.(on); });
-EM_JS(double, oiler_page_pixels, (), { return window.devicePixelRatio || 1; });
-
-EM_JS_DEPS(oiler_page, "$UTF8ToString,$stringToNewUTF8");
+EM_JS(bool, oiler_web_closes, (), { return Module.closes === true; });
+EM_JS(void, oiler_web_takes_text, (bool on), { Module.onTextInput?.(on); });
+EM_JS(double, oiler_web_pixels, (), { return window.devicePixelRatio || 1; });
+// clang-format on
+EM_JS_DEPS(oiler_web, "$UTF8ToString,$stringToNewUTF8");
 
 namespace oiler {
 namespace {
@@ -273,14 +275,14 @@ public:
         events_.hand_out({share(width_, of_game.width), static_cast<int>(height_) - top}, top,
                          {game, loop, of_game});
         if (is_lost_) return State::lost;
-        return oiler_page_closes() ? State::closed : State::open;
+        return oiler_web_closes() ? State::closed : State::open;
     }
-    std::optional<std::string> take_dropped() override { return taken(oiler_page_file()); }
-    std::optional<std::string> take_wish() override { return taken(oiler_page_wish()); }
-    void set_title(const std::string& title) override { oiler_page_title(title.c_str()); }
+    std::optional<std::string> take_dropped() override { return taken(oiler_web_file()); }
+    std::optional<std::string> take_wish() override { return taken(oiler_web_wish()); }
+    void set_title(const std::string& title) override { oiler_web_title(title.c_str()); }
     void tell(const Told& told) override {
         if (std::exchange(told_, told) != told)
-            oiler_page_text(told.line.c_str(), told.status.c_str(), told.setting.c_str());
+            oiler_web_text(told.line.c_str(), told.status.c_str(), told.setting.c_str());
     }
     void fill_screen(bool on) override {
         if (on)
@@ -291,7 +293,7 @@ public:
     std::string name_on_layout(Key) const override { return ""; }
     void take_text(bool on) override {
         events_.take_text(on);
-        oiler_page_takes_text(on);
+        oiler_web_takes_text(on);
     }
     void present() override {}  // the browser shows a frame when its function returns
 
@@ -304,7 +306,7 @@ private:
     /// The canvas has as many pixels as it takes of the screen.
     void fit() {
         emscripten_get_element_css_size(canvas, &width_, &height_);
-        const double pixels = oiler_page_pixels();
+        const double pixels = oiler_web_pixels();
         const Size size{std::max(1, static_cast<int>(std::lround(width_ * pixels))),
                         std::max(1, static_cast<int>(std::lround(height_ * pixels)))};
         if (size == size_) return;
@@ -331,7 +333,7 @@ EM_BOOL call_frame(double, void* user) {
         reason = error.what();
     }
     delete frame;
-    oiler_page_end(reason.c_str());
+    oiler_web_end(reason.c_str());
     return EM_FALSE;
 }
 
