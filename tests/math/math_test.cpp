@@ -120,6 +120,44 @@ TYPED_TEST(Sine, HasThePeriodOfOneTurn) {
             EXPECT_EQ(sine_of_turns(T(whole) + fraction), sine_of_turns(fraction)) << whole;
 }
 
+/// A number of 113 bits, as long double has on ARM64.
+struct Quad {
+    constexpr Quad(auto number) : value(static_cast<__float128>(number)) {}
+    constexpr explicit operator double() const { return static_cast<double>(value); }
+    friend constexpr Quad operator+(Quad a, Quad b) { return a.value + b.value; }
+    friend constexpr Quad operator-(Quad a, Quad b) { return a.value - b.value; }
+    friend constexpr Quad operator*(Quad a, Quad b) { return a.value * b.value; }
+    friend constexpr Quad operator/(Quad a, Quad b) { return a.value / b.value; }
+    friend constexpr Quad operator-(Quad a) { return -a.value; }
+
+    __extension__ __float128 value;
+};
+
+}  // namespace
+}  // namespace oiler::test
+
+template <>
+struct std::numeric_limits<oiler::test::Quad> {
+    static constexpr int digits = 113;
+};
+
+namespace oiler::test {
+namespace {
+
+// The literals and the constant of `sine_of_turns` have more than 113 bits where long double has.
+TEST(Sine113, IsAtLeastAsPreciseAsALongDouble) {
+    for (const Sample& sample : samples) {
+        const Quad fraction = turns(Quad(sample.frequency), sample.t);
+        const Quad sine = sine_of_turns(fraction + Quad(sample.phase));
+        EXPECT_LE(apart(static_cast<long double>(fraction.value), sample.turns),
+                  round_off<long double>);
+        EXPECT_LE(std::abs(static_cast<long double>(sine.value) - sample.sine),
+                  (two_pi + 2) * round_off<long double>);
+    }
+    EXPECT_EQ(static_cast<double>(nearest_whole(Quad(0x1p111L) - Quad(0.25L))), 0x1p111);
+    EXPECT_EQ(static_cast<double>(nearest_whole(Quad(0x1p52L) + Quad(0.75L)) - Quad(0x1p52L)), 1);
+}
+
 using Matrix2 = Matrix<double, 2>;
 using Vector2 = Vec<double, 2>;
 using Matrix3 = Matrix<double, 3>;

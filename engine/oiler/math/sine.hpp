@@ -10,12 +10,20 @@ namespace oiler {
 // The sine for forces that depend on time. The C library's last bit may differ between machines;
 // these functions use + − × only.
 
+/// 2^exponent, also where no whole type of the language has as many bits.
+template <class T>
+[[nodiscard]] constexpr T power_of_two(int exponent) {
+    T power = 1;
+    for (int i = 0; i < exponent; ++i) power = power * T(2);
+    return power;
+}
+
 /// The nearest whole number, for |a| < 2^(digits − 2). For a larger a that is whole, it gives some
 /// whole number.
 template <Number V>
 [[gnu::always_inline]] constexpr V nearest_whole(const V& a) {
     using T = Scalar<V>;
-    constexpr T shift = T(3) * static_cast<T>(1ULL << (std::numeric_limits<T>::digits - 2));
+    constexpr T shift = T(3) * power_of_two<T>(std::numeric_limits<T>::digits - 2);
     const V shifted = a + V(shift);
     return shifted - V(shift);
 }
@@ -27,7 +35,8 @@ template <Number V>
 [[gnu::always_inline]] constexpr V upper_half(const V& a) {
     using T = Scalar<V>;
     constexpr int half = std::numeric_limits<T>::digits / 2 + 1;
-    const V scaled = a * V(static_cast<T>((1ULL << half) + 1));
+    constexpr T factor = power_of_two<T>(half) + T(1);
+    const V scaled = a * V(factor);
     return scaled - (scaled - a);
 }
 
@@ -50,7 +59,8 @@ template <Number V>
 }
 
 /// sin(2π·turns), with an absolute error below 10 units of round-off. It is the Taylor series over
-/// a quarter of the angle and two doublings; the first term left out is below 2⁻⁷².
+/// a quarter of the angle and two doublings; the first term left out is below 2⁻⁷², or 2⁻¹²⁵ in
+/// types of more digits than 64.
 template <Number V>
 [[gnu::always_inline]] constexpr V sine_of_turns(const V& turns) {
     using T = Scalar<V>;
@@ -59,7 +69,7 @@ template <Number V>
     const V square = angle * angle;
     V sine = V(T(1));
     V cosine = V(T(1));
-    for (int n = 20; n > 0; n -= 2) {
+    for (int n = std::numeric_limits<T>::digits > 64 ? 30 : 20; n > 0; n -= 2) {
         cosine = V(T(1)) - cosine * square * V(T(1) / T(n * (n - 1)));
         sine = V(T(1)) - sine * square * V(T(1) / T(n * (n + 1)));
     }
