@@ -120,9 +120,12 @@ TYPED_TEST(Sine, HasThePeriodOfOneTurn) {
             EXPECT_EQ(sine_of_turns(T(whole) + fraction), sine_of_turns(fraction)) << whole;
 }
 
+}  // namespace
+
 /// A number of 113 bits, as long double has on ARM64.
+using Float113 [[gnu::mode(TF)]] = float;
 struct Quad {
-    constexpr Quad(auto number) : value(static_cast<__float128>(number)) {}
+    constexpr Quad(auto number) : value(static_cast<Float113>(number)) {}
     constexpr explicit operator double() const { return static_cast<double>(value); }
     friend constexpr Quad operator+(Quad a, Quad b) { return a.value + b.value; }
     friend constexpr Quad operator-(Quad a, Quad b) { return a.value - b.value; }
@@ -130,10 +133,9 @@ struct Quad {
     friend constexpr Quad operator/(Quad a, Quad b) { return a.value / b.value; }
     friend constexpr Quad operator-(Quad a) { return -a.value; }
 
-    __extension__ __float128 value;
+    Float113 value;
 };
 
-}  // namespace
 }  // namespace oiler::test
 
 template <>

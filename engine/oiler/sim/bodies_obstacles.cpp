@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "oiler/core/require.hpp"
+#include "oiler/physics/response.hpp"
 #include "oiler/sim/any_columns.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/sim/limits.hpp"
@@ -43,11 +44,10 @@ public:
         to_.half = converted<Vec>(shape.size / 2.0);
         if constexpr (Axes > 1)
             if (shape.angle != 0) {
-                const auto c = static_cast<T>(std::cos(shape.angle));
-                const auto s = static_cast<T>(std::sin(shape.angle));
-                to_.frame(0, 0) = to_.frame(1, 1) = c;
-                to_.frame(0, 1) = s;
-                to_.frame(1, 0) = -s;
+                const Response<double> turned = oscillator_response(1.0, 0.0, shape.angle);
+                to_.frame(0, 0) = to_.frame(1, 1) = static_cast<T>(turned.decay);
+                to_.frame(0, 1) = static_cast<T>(turned.reach);
+                to_.frame(1, 0) = static_cast<T>(-turned.reach);
             }
     }
 

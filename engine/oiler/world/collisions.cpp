@@ -44,22 +44,27 @@ void Collisions::add_path(const World& world, std::size_t row, double radius) {
 /// The distance is least where the relative position is normal to the relative path. From there,
 /// Pythagoras' theorem leads back to the first touch. Points that meet do so within round-off.
 void Collisions::meet(const Path& a, const Path& b) {
-    constexpr long double round_off = 8 * std::numeric_limits<long double>::epsilon();
-    const long double reach = static_cast<long double>(a.radius) + b.radius;
-    const WideVec3 before = widened(b.start) - widened(a.start);
-    const WideVec3 after = widened(b.end) - widened(a.end);
+    constexpr double round_off = 8 * std::numeric_limits<double>::epsilon();
+    // Quarters, because differences of differences may overflow.
+    const Vec3 start = b.start * 0.25 - a.start * 0.25;
+    const Vec3 end = b.end * 0.25 - a.end * 0.25;
+    const double radii = a.radius * 0.25 + b.radius * 0.25;
+    const double scale = scale_for_squares(std::max({largest(start), largest(end), radii}));
+    const Vec3 before = start * scale;
+    const Vec3 after = end * scale;
+    const double reach = radii * scale;
     const bool touching = squared_length(after) <= reach * reach;
     if (squared_length(before) <= reach * reach) return add_meet(a, b, 0, touching);
-    const WideVec3 path = after - before;
-    const long double squared_path = squared_length(path);
-    const long double closest = -quotient_or_zero(dot(before, path), squared_path);
-    const long double least = length(before + path * closest);
+    const Vec3 path = after - before;
+    const double squared_path = squared_length(path);
+    const double closest = -quotient_or_zero(dot(before, path), squared_path);
+    const double least = length(before + path * closest);
     const bool crossing =
         closest > 0 && closest < 1 && least <= reach + round_off * largest(before);
     if (!touching && !crossing) return;
-    const long double depth = std::max(reach * reach - least * least, 0.0L);
-    const long double first = closest - std::sqrt(depth / squared_path);
-    add_meet(a, b, static_cast<double>(std::clamp(first, 0.0L, 1.0L)), touching);
+    const double depth = std::max(reach * reach - least * least, 0.0);
+    const double first = closest - std::sqrt(depth / squared_path);
+    add_meet(a, b, std::clamp(first, 0.0, 1.0), touching);
 }
 
 void Collisions::add_meet(const Path& a, const Path& b, double fraction, bool touching) {

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "oiler/sim/store/box_grid.hpp"
 
 namespace oiler {
 
-/// A position whose squares neither overflow nor vanish.
-using WideVec3 = Vec<long double, 3>;
-
-[[nodiscard]] inline WideVec3 widened(const Vec3& a) { return {{a.axis[0], a.axis[1], a.axis[2]}}; }
+/// The power of two that scales numbers up to `size` so that their squares neither overflow nor
+/// vanish beside the largest. Long double has the range, but other digits on other machines.
+[[nodiscard]] inline double scale_for_squares(double size) {
+    constexpr int most = 1000;
+    return size == 0 ? 1 : std::ldexp(1.0, -std::clamp(std::ilogb(size), -most, most));
+}
 
 /// The closed ball of a query.
 class SearchBall {
@@ -18,8 +23,10 @@ public:
     SearchBall(const Vec3& centre, double radius, int axes);
 
     [[nodiscard]] bool contains(const Vec3& point) const {
-        const long double reach = radius_;
-        return squared_length(widened(point) - widened(centre_)) <= reach * reach;
+        const Vec3 way = point - centre_;
+        const double scale = scale_for_squares(std::max(largest(way), radius_));
+        const double reach = radius_ * scale;
+        return squared_length(way * scale) <= reach * reach;
     }
     [[nodiscard]] Bounds bounds() const;
 

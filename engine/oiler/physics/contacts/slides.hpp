@@ -8,6 +8,7 @@
 
 #include "oiler/physics/contacts/friction.hpp"
 #include "oiler/physics/contacts/pinned.hpp"
+#include "oiler/physics/response.hpp"
 
 namespace oiler {
 
@@ -105,7 +106,8 @@ protected:
         const auto move = [&](T tau) {
             // The normal turns as clockwise as the belt runs.
             const Vec along = belt_velocity(near.obstacle, near.normal) / near.obstacle.belt;
-            const Vec out = near.normal * std::cos(turn * tau) + along * std::sin(turn * tau);
+            const Response<T> turned = oscillator_response(T(1), T(0), turn * tau);
+            const Vec out = near.normal * turned.decay + along * turned.reach;
             const Vec way = course.way(start_ + tau) - course.way(start_);
             const Vec x = state.x + way + (out - near.normal) * radius;
             return State{x, surface(x, tau).second};
