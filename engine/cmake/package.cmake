@@ -92,13 +92,14 @@ foreach(embedded fonts-dejavu-core libjs-chart.js libstb-dev python3-glad libcli
 endforeach()
 
 # Packages to link a game, and packages that the programs load at run time: SDL2 and GL for a
-# window, OSMesa or EGL without one. dpkg-shlibdeps adds the shared libraries that they link.
+# window, EGL without one. OSMesa, where Debian has it, is recommended. dpkg-shlibdeps adds the
+# shared libraries that they link.
 set(build_needs pkg-config libfmt-dev libimgui-dev libxxhash-dev libdeflate-dev libtomlplusplus-dev)
-set(run_needs libsdl2-2.0-0 libosmesa6 libegl1 libgl1 libgl1-mesa-dri)
+set(run_needs libsdl2-2.0-0 libegl1 libgl1 libgl1-mesa-dri)
 list(JOIN build_needs ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 list(JOIN run_needs ", " run_needs)
 string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", ${run_needs}")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++, make | ninja-build")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "cmake, g++, make | ninja-build, libosmesa6")
 set(CPACK_DEBIAN_PACKAGE_SECTION devel)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

@@ -302,17 +302,38 @@ TEST(Program, ADivergedRunReplacesTheReportOfAnEarlierOne) {
     EXPECT_EQ(report["state_hash"], nullptr);
 }
 
+// An empty file in its place keeps a library from being loaded.
+TEST(Program, TakesEglWhereMesaHasNoOsMesa) {
+    const Folder folder;
+    put(folder / "libOSMesa.so.8", "");
+    const std::string capture = "LD_LIBRARY_PATH=" + quoted(folder.path()) + " hello" + small +
+                                "--frames 1 --out " + quoted(folder / "out") + " --surface ";
+    const Outcome osmesa = shell(capture + "osmesa", 3);
+    EXPECT_TRUE(is_one_line(osmesa.err)) << osmesa.err;
+    for (const char* const words : {"Mesa 25.1 dropped OSMesa", "--surface egl", "libosmesa6"})
+        EXPECT_TRUE(holds(osmesa.err, words)) << osmesa.err;
+    const Outcome egl = shell(capture + "auto");
+    if (egl.exit == 3) GTEST_SKIP() << egl.err;
+    EXPECT_EQ(egl.err, "");
+    EXPECT_EQ(Json::parse(text_of(folder / "out" / "manifest.json"))["provider"], "egl");
+    put(folder / "libEGL.so.1", "");
+    const Outcome neither = shell(capture + "auto", 3);
+    EXPECT_TRUE(is_one_line(neither.err)) << neither.err;
+    EXPECT_TRUE(holds(neither.err, "install the Debian packages libegl1 and libgl1-mesa-dri"));
+}
+
 // Mesa 22.3 would dereference null.
-TEST(Program, OsMesaWithoutItsDriverIsNoOpenGl) {
+TEST(Program, MesaWithoutItsDriverIsNoOpenGl) {
     const Folder folder;
     const std::string line = "hello --headless --frames 1 --size 64x36 --quiet --out " +
                              quoted(folder / "out") + " --surface ";
-    if (shell(line + "osmesa").exit == 3) GTEST_SKIP() << "OSMesa is not installed";
-    for (const std::string driver : {"bogus", "zink", "LLVMPIPE"})
-        for (const std::string surface : {"osmesa", "auto"}) {
+    for (const std::string surface : {"osmesa", "egl", "auto"}) {
+        if (shell(line + surface).exit == 3) continue;
+        for (const std::string driver : {"bogus", "zink", "LLVMPIPE"}) {
             const Outcome run = shell("export GALLIUM_DRIVER=" + driver + "; " + line + surface, 3);
             EXPECT_TRUE(holds(run.err, "unset variables of Mesa such as GALLIUM_DRIVER"));
         }
+    }
 }
 
 // Mesa 22.3 would damage its memory.
@@ -379,7 +400,9 @@ TEST(Program, QuietPrintsNothingAndDataNeedsAnOption) {
     const Outcome loud =
         shell("hello --headless --size 160x90 --frames 2 --out " + quoted(folder / "p"));
     EXPECT_EQ(loud.out, "");
-    EXPECT_TRUE(holds(loud.err, "osmesa")) << "auto prints the selected surface";
+    const Json manifest = Json::parse(text_of(folder / "p" / "manifest.json"));
+    EXPECT_TRUE(holds(loud.err, manifest["provider"].get<std::string>()))
+        << "auto prints the selected surface";
 }
 
 // 501 steps of 1/60 s at 2 frames per second; without a script, hello is 4 s long.

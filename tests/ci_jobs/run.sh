@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# run.sh DEB [ROOT]: runs the commands of both CI jobs of a project of `oiler new` as they stand: with
-# golden frames, after a change of the game, and without the change. DEB is the package of Oiler. The
-# commands install packages: on this machine, or in ROOT, the root folder of another Debian 12:
+# run.sh OILER [ROOT]: runs the commands of both CI jobs of a project of `OILER new` as they stand:
+# with golden frames, after a change of the game, and without the change. The first job builds the
+# package from the commit of this repository, and the second one takes it from the cache. The commands
+# install packages: on this machine, or in ROOT, the root folder of another Debian 12:
 #   debootstrap --variant=minbase bookworm ROOT
 # Exit 77: not root, or no python3-yaml.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-deb=$(realpath "$1")
+oiler=$(realpath "$1")
 root=${2:-}
 skip() { echo "skipped: $*"; exit 77; }
 fail() { echo "ci_jobs: $*"; exit 1; }
@@ -18,8 +19,7 @@ folder=$(mktemp -d -p "$root/tmp")
 trap 'rm -rf "$folder"' EXIT
 # inside COMMAND: runs a command in the game's folder, as a CI job does.
 inside() {
-    local start=(env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root CI=true)
-    start+=("OILER_DEB=file://${folder#"$root"}/package.deb")
+    local start=(env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root CI=true "${variables[@]}")
     echo "+ $1"
     chroot "${root:-/}" "${start[@]}" sh -ec "cd '${game#"$root"}'; $1" >"$folder/log" 2>&1
 }
@@ -32,7 +32,7 @@ must_find_changes() {
 
 # A clone of the repository of a new project.
 make_game() {
-    "$folder/package/usr/bin/oiler" new "$game" >"$folder/log"
+    "$oiler" new "$game" >"$folder/log"
     rm "$game/local.cmake"
 }
 # change_game FROM TO: builds the game with another stiffness.
@@ -51,15 +51,30 @@ check_artifacts() {
     [ -s "$game/frames/cannon-differences/index.html" ] || fail "there is no page of differences"
 }
 
+read_variables() { mapfile -t variables < <(python3 "$here/job.py" "$job" variables); }
+# The job fails and says what to set; then it is set to a repository in which the commit has the tag.
+set_repository() {
+    local command
+    read_variables
+    for command in "${commands[@]}"; do inside "$command" || break; done
+    grep -q "OILER_REPOSITORY: is empty, set it in $1 to" "$folder/log" || fail "$(tail -n 20 "$folder/log")"
+    sed -i "s|OILER_REPOSITORY: \"\"|OILER_REPOSITORY: file://${folder#"$root"}/oiler.git|" "$job"
+    git -C "$folder/oiler.git" tag -f "$(sed -n 's/^ *OILER_TAG: //p' "$job")" >"$folder/log"
+    read_variables
+}
+
 # run_job FILE: FILE is the job, relative to the folder of the game.
 run_job() {
-    local job commands compare command
+    local job commands cached compare command
     game=$(mktemp -d -p "$folder")/cannon
     make_game
     job=$game/$1
     [ "$(python3 "$here/job.py" "$job" image)" = debian:12 ] || fail "$1: the image is not Debian 12"
     mapfile -t commands < <(python3 "$here/job.py" "$job" commands)
+    cached=$(python3 "$here/job.py" "$job" cached)
     compare=${commands[-1]}
+    set_repository "$1"
+    [ ! -e "$folder/$cached" ] || mv "$folder/$cached" "$game"
     for command in "${commands[@]::${#commands[@]}-1}"; do must "$command"; done
     # Golden frames come from a developer: a CI job may not write them.
     must "unset CI; $compare"
@@ -69,10 +84,10 @@ run_job() {
     check_artifacts "$job"
     change_game 13 12
     must "$compare"
+    mv "$game/$cached" "$folder"
 }
 
-cp "$deb" "$folder/package.deb"
-dpkg-deb -x "$deb" "$folder/package"
+git clone -q --bare "$here/../.." "$folder/oiler.git"
 for file in .github/workflows/frames.yml .gitlab-ci.yml; do
     echo "$file"
     run_job "$file"

@@ -3,7 +3,8 @@
 # Captures demos and scenes and compares them with the golden frames beside this script:
 #   tests/golden/check.sh            exits with 1 if a frame changed
 #   tests/golden/check.sh --update   writes the golden frames
-# PROGRAMS is the folder of the programs, build/bin if not set; frames go to OUT, frames/golden.
+# PROGRAMS is the folder of the programs, build/bin if not set; frames go to OUT, frames/golden. SURFACE
+# is the provider of OpenGL, auto if not set.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 programs=${PROGRAMS:-$here/../../build/bin}
@@ -16,7 +17,7 @@ capture() {
     local name=$1 mode=(--out "$out/$1" --junit "$out/$1.xml")
     shift
     [ "$update" = --update ] && mode=(--update-golden)
-    "$@" --headless --quiet --size 320x180 --fps 2 --frames 3 --golden "$here/$name" "${mode[@]}" ||
+    "$@" --headless --quiet --size 320x180 --fps 2 --frames 3 --surface "${SURFACE:-auto}" --golden "$here/$name" "${mode[@]}" ||
         failed=1
 }
 

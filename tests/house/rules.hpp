@@ -59,8 +59,7 @@ using Plan = std::map<std::string, std::set<std::string>>;
 
 /// The files that may include headers of windows and of OpenGL's providers.
 inline constexpr std::array providers{"platform/sdl2.cpp", "platform/sdl2_events.cpp",
-                                      "platform/sdl2_events.hpp", "platform/osmesa.cpp",
-                                      "platform/egl.cpp"};
+                                      "platform/sdl2_events.hpp", "platform/egl.cpp"};
 
 /// Folders whose targets depend on options, presets and installed libraries. CMake's list of
 /// compile commands may lack their files; then the CMake files of the folder must name them.

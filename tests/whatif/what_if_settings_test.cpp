@@ -74,7 +74,7 @@ TEST(WhatIfSettings, ArePrintedByPrograms) {
     EXPECT_EQ(json.at("reference").at("rate"), 7680);
     EXPECT_EQ(json.at("settings").at(1).at("rate"), 30);
     EXPECT_GT(json.at("settings").at(1).at("ns_per_frame").at("draw"), 0);
-    const Outcome usual = shell(replay + "--quiet --surface osmesa --json -", 0);
+    const Outcome usual = shell(replay + "--quiet --surface egl --json -", 0);
     EXPECT_EQ(nlohmann::json::parse(usual.out).at("settings").size(), 6U);
     for (const std::string& wrong : {replay + "30 --headless", replay + "--steps 9", replay + "31x",
                                      replay + "--surface window", std::string("hello --what-if")}) {

@@ -277,7 +277,10 @@ void MotionOverlay::sample(const World& world, const Shown& shown,
                            const std::vector<Entity>& bodies) {
     const bool is_back = after_ && world.time() < after_->time;
     if (is_back) largest_ = {};
-    if (shown != shown_ || bodies != bodies_ || is_back) before_ = after_ = std::nullopt;
+    if (shown != shown_ || bodies != bodies_ || is_back) {
+        before_.reset();
+        after_.reset();
+    }
     if (!shown.trails) trails_.clear();
     shown_ = shown;
     bodies_ = bodies;

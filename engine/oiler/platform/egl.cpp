@@ -34,8 +34,8 @@ public:
         if (context_ == EGL_NO_CONTEXT ||
             egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
             egl_.terminate(display_);
-            fail(Exit::no_display, "EGL offers no OpenGL 3.3 core context without a screen; {}",
-                 egl_remedy);
+            fail(Exit::no_display, "EGL offers no OpenGL 3.3 core context without a screen; {}; {}",
+                 usual_driver, egl_remedy);
         }
     }
 
@@ -56,7 +56,8 @@ private:
         if (get_platform_display != nullptr)
             display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
         if (display == EGL_NO_DISPLAY || egl_.initialise(display, nullptr, nullptr) == EGL_FALSE)
-            fail(Exit::no_display, "EGL has no surfaceless platform; {}", egl_remedy);
+            fail(Exit::no_display, "EGL has no surfaceless platform; {}; {}", usual_driver,
+                 egl_remedy);
         return display;
     }
 

@@ -14,6 +14,8 @@ namespace oiler {
 
 /// The remedy where a library cannot be loaded for lack of memory.
 inline constexpr const char* more_memory = "allow the program more memory, see `ulimit -v`";
+/// The remedy where Mesa has no driver.
+inline constexpr const char* usual_driver = "unset variables of Mesa such as GALLIUM_DRIVER";
 
 /// A shared library, loaded at run time. A program therefore starts without it and can name the
 /// package to install.

@@ -16,10 +16,7 @@ std::unique_ptr<Surface> open_egl_after(const Error& osmesa) {
     } catch (const Error& egl) {
         if (std::string_view(osmesa.what()).ends_with(more_memory))
             fail(Exit::no_display, "no OpenGL without a screen: {}", osmesa.what());
-        fail(Exit::no_display,
-             "no OpenGL without a screen: {}; {}; install the Debian package libosmesa6, or "
-             "libegl1 with libgl1-mesa-dri",
-             osmesa.what(), egl.what());
+        fail(Exit::no_display, "no OpenGL without a screen: {}; {}", osmesa.what(), egl.what());
     }
 }
 

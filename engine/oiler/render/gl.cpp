@@ -54,7 +54,7 @@ GlProgram::GlProgram(const Gl& gl, std::string_view vertex, std::string_view fra
         std::array<char, 256> reason{};
         gl.GetProgramInfoLog(name_, reason.size(), nullptr, reason.data());
         gl.DeleteProgram(name_);
-        fail(Exit::no_display, "the GL driver refuses Oiler's shaders ({}); try --surface osmesa",
+        fail(Exit::no_display, "the GL driver refuses Oiler's shaders ({}); try --surface egl",
              reason.data());
     }
 }

@@ -168,7 +168,7 @@ public:
     /// slips.
     [[nodiscard]] bool jams(const Vector& v, const Vector& along) const {
         const T noise = 64 * std::numeric_limits<T>::epsilon() * largest(along);
-        if (count_ < 2 || largest(along - v) <= noise) return false;
+        if (Axes == 1 || count_ < 2 || largest(along - v) <= noise) return false;
         const Vector pushes =
             this->pushes(along, [&](const Touch& touch) { return dot(touch.normal, along - v); });
         const auto first = pushes.axis.begin();
