@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// The game on the canvas: its keys, setting, link and recordings. Texts of scenes, links, files and
+// the program enter the page as text only.
+'use strict';
+
+const find = id => document.getElementById(id);
+const recordingFile = '/tmp/recording';
+
+let game = {};           // {name} of a demo, {file, text} of a scene of the list, {text} of another
+let playing = null;      // {module, ended, isRecording}; module is null before and after the game
+let setting = '';        // such as rk4@120
+let usualSetting = null; // that of the game without a link and without a choice
+let wish = null;         // setting that the game takes next
+
+function complain(reason) {
+  find('problem').textContent = reason;
+  find('problem').hidden = reason === '';
+}
+const say = words => { find('said').textContent = words; };
+const showLine = slowly(find('line'));
+
+const isScene = () => game.name === undefined;
+const scenePath = () => `/tmp/${game.file ?? 'scene.toml'}`;
+const command = () => isScene() ? ['oiler', 'play', scenePath()] : [game.name];
+const sceneFiles = () => isScene() ? {[scenePath()]: find('text').value} : {};
+// The text of a scene of the list is in the program.
+const firstFiles = () => game.text === undefined && isScene()
+  ? {[scenePath()]: FS => FS.readFile(`/scenes/${game.file}`)} : sceneFiles();
+const settingOptions = text => {
+  const [method, rate] = text.split('@');
+  return ['--method', method, '--rate', rate];
+};
+
+// One game after the other.
+let queue = Promise.resolve();
+function play(options = [], files = {}) {
+  queue = queue.then(end).then(() => start(options, files));
+  return queue;
+}
+
+async function end() {
+  if (!playing?.module) return;
+  playing.module.closes = true;
+  await playing.ended;
+}
+
+async function start(options, files) {
+  complain('');
+  say('');
+  const canvas = find('canvas').cloneNode();  // a canvas keeps its context, also a lost one
+  find('canvas').replaceWith(canvas);
+  const remarks = [];
+  const {promise, resolve} = withResolvers();
+  const shown = playing = {module: null, ended: promise};
+  let isLost = false, isOver = false;
+  canvas.addEventListener('webglcontextlost', () => { isLost = true; });
+  const onEnd = reason => {
+    shown.module = null;
+    isOver = true;
+    resolve();
+    if (isLost) play(options, files);
+    else if (reason) complain(reason);
+    else say(remarks.at(-1) ?? 'The game has ended.');
+  };
+  try {
+    const args = [...command(), ...options];
+    const module = await playOiler(canvas, args, {...firstFiles(), ...files}, {
+      printErr: line => remarks.push(line),
+      onTitle: title => { document.title = title; },
+      onText: tell,
+      onEnd,
+      takeWish() {
+        const taken = wish;
+        wish = null;
+        return taken;
+      },
+      quit(status, reason) {
+        if (status !== 0) onEnd(remarks.at(-1));
+        throw reason;
+      }
+    });
+    if (isOver) return;
+    shown.module = module;
+    canvas.focus({preventScroll: true});
+  } catch (error) {
+    onEnd(error.message);
+  }
+}
+
+function tell(line, status, now) {
+  showLine(line);
+  find('pause').ariaPressed = status.includes('paused');
+  if (now === setting) return;
+  setting = now;
+  usualSetting ??= now;
+  showSetting();
+  keepLink();
+}
+
+// Keys and settings
+
+function sendKey(type, code) {
+  find('canvas').dispatchEvent(new KeyboardEvent(type, {code, key: code, bubbles: true}));
+}
+
+for (const button of document.querySelectorAll('[data-code]')) {
+  const {code} = button.dataset;
+  button.addEventListener('mousedown', event => event.preventDefault());  // the game keeps the focus
+  button.addEventListener('pointerdown', () => sendKey('keydown', code));
+  for (const type of ['pointerup', 'pointerleave', 'pointercancel'])
+    button.addEventListener(type, () => sendKey('keyup', code));
+  button.addEventListener('click', event => {
+    if (event.detail > 0) return;  // not by the keyboard
+    sendKey('keydown', code);
+    sendKey('keyup', code);
+  });
+}
+find('restart').addEventListener('click', () => { if (!playing?.module) play(); });
+
+function showSetting() {
+  const [method, rate] = setting.split('@');
+  if (![...find('method').options].some(option => option.value === method))
+    find('method').append(new Option(method));
+  find('method').value = method;
+  find('rate').value = rate;
+}
+
+async function listMethods() {
+  const {output} = await runOiler(['oiler', 'methods', '--json', '-'], {}).result;
+  find('method').replaceChildren(...JSON.parse(output).map(({name}) => new Option(name)));
+  showSetting();
+}
+
+for (const id of ['rate', 'method'])
+  find(id).addEventListener('change', () => {
+    if (find('rate').reportValidity()) wish = `${find('method').value}@${find('rate').value}`;
+    setTimeout(showSetting, 1000);  // a game may keep its setting
+  });
+
+function fixSetting(isFixed) {
+  for (const id of ['rate', 'method']) find(id).disabled = isFixed;
+}
+
+// Link
+
+async function link() {
+  const text = find('text').value;
+  const what = !isScene() ? game.name
+    : game.file && text === game.text ? `scene=${game.file}` : await linkOfText(text);
+  return `#${what}${setting === usualSetting ? '' : `&setting=${setting}`}`;
+}
+
+let linkTimer;
+function keepLink() {
+  clearTimeout(linkTimer);
+  linkTimer = setTimeout(async () => history.replaceState(null, '', await link()), 500);
+}
+
+find('copy').addEventListener('click', async () => {
+  clearTimeout(linkTimer);
+  history.replaceState(null, '', await link());
+  try {
+    await navigator.clipboard.writeText(location.href);
+    say('Link copied.');
+  } catch {
+    say('The address of this page is the link: copy it.');
+  }
+});
+
+// Recordings and files
+
+find('record').addEventListener('click', async () => {
+  if (playing?.isRecording) return end();
+  await play([...settingOptions(setting), '--record', recordingFile]);
+  const recorded = playing, {module} = recorded;
+  if (!module) return;
+  setRecording(recorded, true);
+  await recorded.ended;
+  setRecording(recorded, false);
+  const name = `${game.name}.rec`;
+  save(module.FS.readFile(recordingFile), name);
+  await play();
+  say(`${name} is saved: open it here, or give it to ${game.name} --replay.`);
+});
+
+function setRecording(of, isRecording) {
+  of.isRecording = isRecording;
+  fixSetting(isRecording);
+  find('record').textContent = isRecording ? 'Stop and save' : 'Record';
+}
+
+function save(bytes, download) {
+  const href = URL.createObjectURL(new Blob([bytes]));
+  Object.assign(document.createElement('a'), {href, download}).click();
+  setTimeout(() => URL.revokeObjectURL(href), 60000);
+}
+
+async function open(file) {
+  if (file.size > 1 << 28) return complain('This file is too large: give a scene or a recording.');
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const [magic, header] = new TextDecoder().decode(bytes.subarray(0, 65536)).split('\n', 2);
+  if (magic.startsWith('OILERREC')) return replay(bytes, header);
+  if (bytes.length > longestScene)
+    return complain('This file is too long: a scene has at most 64 KiB.');
+  location.hash = await linkOfText(new TextDecoder().decode(bytes));
+}
+
+async function replay(bytes, header) {
+  let name;
+  try {
+    name = JSON.parse(header).game;
+  } catch {
+    return complain('This recording is damaged: record again.');
+  }
+  if (!isDemo(name))
+    return complain('This recording is of a game that is not here: replay it with its program.');
+  if (name !== game.name) show({name});
+  fixSetting(true);
+  await play(['--replay', recordingFile], {[recordingFile]: bytes});
+  await playing.ended;
+  fixSetting(false);
+}
+
+find('file').addEventListener('change', ({target}) => {
+  if (target.files[0]) open(target.files[0]);
+  target.value = '';
+});
+document.addEventListener('dragover', event => event.preventDefault());
+document.addEventListener('drop', event => {
+  event.preventDefault();
+  const [file] = event.dataTransfer.files;
+  if (file) open(file);
+});
+
+// Begin
+
+const isDemo = name => oilerList.demos.some(demo => demo.name === name);
+const isListed = file => oilerList.scenes.some(scene => scene.file === file);
+
+function show(newGame) {
+  game = newGame;
+  usualSetting = null;
+  find('title').textContent = game.name?.replaceAll('_', ' ') ?? game.file ?? 'A scene';
+  find('scene').hidden = !isScene();
+  find('record').hidden = isScene();
+  document.body.classList.toggle('scene', isScene());
+}
+
+async function begin() {
+  const first = 'Choose a demo or a scene on the first page.';
+  let link;
+  try {
+    link = await readLink(location.hash);
+  } catch {
+    return complain(`This link is damaged: ask for it again. ${first}`);
+  }
+  const {setting: linked, ...linkedGame} = link;
+  if (link.text === undefined && !isDemo(link.name) && !isListed(link.file))
+    return complain(`There is no such demo or scene. ${first}`);
+  show(linkedGame);
+  if (linked) usualSetting = '';
+  find('text').value = game.text ?? '';
+  if (link.text !== undefined && !await readScene()) return;
+  await play(linked ? settingOptions(linked) : []);
+  if (!playing.module) return;
+  if (game.file) {
+    find('text').value = playing.module.FS.readFile(scenePath(), {encoding: 'utf8'});
+    game.text = find('text').value;
+    readScene();
+  }
+  listMethods();
+}
+
+addEventListener('hashchange', () => location.reload());
+addEventListener('DOMContentLoaded', begin);

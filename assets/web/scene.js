@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The text of a scene, and commands in a worker that measure it.
+'use strict';
+
+let checking = null;
+let measuring = null;
+let settingsInText = '';  // of the last right text
+let typing;
+
+function showMistake({code, errors}) {
+  const [, line, words] = /:(\d+): (.*)/.exec(errors) ?? [];
+  find('text').classList.toggle('wrong', code !== 0 && line !== undefined);
+  find('text').style.setProperty('--wrong', line ?? 1);
+  find('text').ariaInvalid = code !== 0;
+  find('mistake').textContent = code === 0 ? '' : line ? `Line ${line}: ${words}` : errors;
+}
+
+// Returns whether the text is a scene. Shows its mistake.
+async function readScene() {
+  checking?.cancel();
+  checking = runOiler([...command(), '--steps', '0', '--quiet', '--json', '-'], sceneFiles());
+  const result = await checking.result;
+  if (result.code !== null) showMistake(result);
+  if (result.code !== 0) return false;
+  const {method, rate, precision, damping} = JSON.parse(result.output);
+  usualSetting = `${method}@${rate}`;
+  settingsInText = [usualSetting, precision, damping].join();
+  return true;
+}
+
+// The program reads a changed file again and keeps its setting.
+async function playText() {
+  const text = find('text').value, before = settingsInText;
+  if (!await readScene()) return;
+  if (!playing?.module || settingsInText !== before) return play();
+  playing.module.FS.writeFile(scenePath(), text);
+  keepLink();
+}
+
+find('text').addEventListener('input', () => {
+  clearTimeout(typing);
+  typing = setTimeout(playText, 200);
+});
+
+// Returns the result of a command. Its lines appear as they come.
+async function measure(args) {
+  measuring?.cancel();
+  find('lab').hidden = find('busy').hidden = false;
+  find('results').textContent = '';
+  find('results').ariaBusy = true;
+  const job = measuring = runOiler(args, sceneFiles(), line => find('results').append(line, '\n'));
+  const result = await job.result;
+  if (job !== measuring) return result;
+  find('busy').hidden = true;
+  find('results').ariaBusy = false;
+  if (result.code === null) find('results').append('Cancelled.');
+  return result;
+}
+
+for (const button of document.querySelectorAll('[data-command]'))
+  button.addEventListener('click', () => {
+    const {command: name} = button.dataset, args = ['oiler', name, scenePath()];
+    if (name === 'advise') {
+      if (!find('tolerance').reportValidity()) return;
+      args.push('--position-error', find('tolerance').value);
+    }
+    measure(args);
+  });
+find('cancel').addEventListener('click', () => measuring.cancel());
+
+// Compares the state hash after 600 steps with that of the native program.
+find('bits').addEventListener('click', async () => {
+  const {code, output} = await measure([...command(), '--steps', '600', '--quiet', '--json', '-']);
+  if (code !== 0) return;
+  const {state_hash: hash, steps} = JSON.parse(output);
+  const isChanged = isScene() && find('text').value !== game.text;
+  const native = isChanged ? undefined : oilerList.hashes[game.name ?? game.file];
+  const verdict = native === undefined ? '' :
+    native === hash ? ': equal to the native program' : `: the native program has ${native}`;
+  find('results').textContent = `State hash after ${steps} steps: ${hash}${verdict}.`;
+});
