@@ -24,7 +24,7 @@ list(JOIN entries ", " entries)
 configure_file(page.cpp.in page.cpp @ONLY)
 add_executable(page ${CMAKE_CURRENT_BINARY_DIR}/page.cpp)
 target_link_libraries(page PRIVATE ${objects} oiler::cli)
-target_link_options(page PRIVATE
+target_link_options(page PRIVATE -Oz
   -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sGL_ENABLE_GET_PROC_ADDRESS=1
   -sALLOW_MEMORY_GROWTH=1 -sSTACK_SIZE=1MB -sENVIRONMENT=web,worker
   -sMODULARIZE=1 -sEXPORT_NAME=createOiler -sEXPORTED_RUNTIME_METHODS=FS -sFORCE_FILESYSTEM=1

@@ -31,7 +31,7 @@ if(sources)
   if(hot)
     # Without errno, a square root is one instruction.
     set_source_files_properties(${hot} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
-      COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:-O2>;-fno-math-errno;-fno-trapping-math")
+      COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:$<IF:$<BOOL:${EMSCRIPTEN}>,-Os,-O2>>;-fno-math-errno;-fno-trapping-math")
   endif()
   if(NOT room STREQUAL sim)
     target_link_libraries(oiler_${room} PRIVATE $<BUILD_INTERFACE:oiler_hardening>)

@@ -52,6 +52,13 @@ std::optional<std::string> taken(char* text) {
     return copy;
 }
 
+/// Pixels per CSS pixel of a canvas of that width. A phone's canvas gets fewer than its screen has,
+/// so that texts, whose least size is in pixels, can be read.
+double sharpest(double width) {
+    constexpr double narrow = 640;
+    return width < narrow ? narrow / width : 3;
+}
+
 /// The events since the last poll, in the order in which they came.
 class WebEvents {
 public:
@@ -306,7 +313,7 @@ private:
     /// The canvas has as many pixels as it takes of the screen.
     void fit() {
         emscripten_get_element_css_size(canvas, &width_, &height_);
-        const double pixels = oiler_web_pixels();
+        const double pixels = std::min(oiler_web_pixels(), sharpest(width_));
         const Size size{std::max(1, static_cast<int>(std::lround(width_ * pixels))),
                         std::max(1, static_cast<int>(std::lround(height_ * pixels)))};
         if (size == size_) return;
