@@ -57,27 +57,31 @@ async function playOiler(canvas, args, files, hooks) {
   return oilerProgram()(Object.assign(options, {canvas, print() {}, printErr() {}}, hooks));
 }
 
-// Returns {result, cancel}. The result has the exit code, null if cancelled, and both texts.
+// Messages of errors begin with the program's name.
+const failureIn = (lines, args) => lines.find(line => line.startsWith(`${args[0]}: `)) ?? '';
+
+// Returns {result, cancel}. The result has the lines of both streams and the failure, which is '' if
+// there is none and null if the command was cancelled.
 function runOiler(args, files, onLine = () => {}) {
-  const texts = {output: '', errors: ''};
-  const add = (kind, line) => {
-    texts[kind] += line + '\n';
-    onLine(line);
-  };
+  const lines = {output: [], errors: []};
   const {promise, resolve} = withResolvers();
   let worker = null;
-  const end = code => {
+  const end = failure => {
     worker?.terminate();
-    resolve({code, ...texts});
+    resolve({...lines, failure});
   };
-  const start = wasm => {
+  const take = (stream, line) => {
+    lines[stream].push(line);
+    onLine(line);
+  };
+  oilerModule.then(wasm => {
     worker = new Worker(workerUrl());
-    worker.onmessage = ({data}) => data.kind ? add(data.kind, data.line) : end(data.code);
+    worker.onmessage = ({data: {stream, line}}) =>
+      stream ? take(stream, line) : end(failureIn(lines.errors, args));
     worker.postMessage({wasm, args, files});
-  };
-  oilerModule.then(start).catch(error => {
-    add('errors', error.message);
-    end(-1);
+  }).catch(error => {
+    take('errors', error.message);
+    end(error.message);
   });
   return {result: promise, cancel: () => end(null)};
 }
@@ -96,22 +100,14 @@ function workerUrl() {
 
 function serveCommand(createOiler) {
   onmessage = async ({data: {wasm, args, files}}) => {
-    const tell = kind => line => postMessage({kind, line});
-    let code = 0;
-    const quit = (status, reason) => {
-      code = status;
-      throw reason;
-    };
+    const tell = stream => line => postMessage({stream, line});
     try {
       await createOiler(Object.assign(oilerOptions(wasm, args, files),
-                                      {print: tell('output'), printErr: tell('errors'), quit}));
+                                      {print: tell('output'), printErr: tell('errors')}));
     } catch (error) {
-      if (error.name !== 'ExitStatus') {
-        tell('errors')(String(error));
-        code = -1;
-      }
+      tell('errors')(`${args[0]}: ${error}`);
     }
-    postMessage({code});
+    postMessage({});
   };
 }
 

@@ -73,13 +73,11 @@ async function start(options, files) {
         const taken = wish;
         wish = null;
         return taken;
-      },
-      quit(status, reason) {
-        if (status !== 0) onEnd(remarks.at(-1));
-        throw reason;
       }
     });
     if (isOver) return;
+    const failure = failureIn(remarks, args);
+    if (failure) return onEnd(failure);
     shown.module = module;
     canvas.focus({preventScroll: true});
   } catch (error) {
@@ -127,7 +125,7 @@ function showSetting() {
 
 async function listMethods() {
   const {output} = await runOiler(['oiler', 'methods', '--json', '-'], {}).result;
-  find('method').replaceChildren(...JSON.parse(output).map(({name}) => new Option(name)));
+  find('method').replaceChildren(...JSON.parse(output.join('')).map(({name}) => new Option(name)));
   showSetting();
 }
 

@@ -7,22 +7,22 @@ let measuring = null;
 let settingsInText = '';  // of the last right text
 let typing;
 
-function showMistake({code, errors}) {
-  const [, line, words] = /:(\d+): (.*)/.exec(errors) ?? [];
-  find('text').classList.toggle('wrong', code !== 0 && line !== undefined);
+function showMistake(failure) {
+  const [, line, words] = /:(\d+): (.*)/.exec(failure) ?? [];
+  find('text').classList.toggle('wrong', line !== undefined);
   find('text').style.setProperty('--wrong', line ?? 1);
-  find('text').ariaInvalid = code !== 0;
-  find('mistake').textContent = code === 0 ? '' : line ? `Line ${line}: ${words}` : errors;
+  find('text').ariaInvalid = failure !== '';
+  find('mistake').textContent = line ? `Line ${line}: ${words}` : failure;
 }
 
 // Returns whether the text is a scene. Shows its mistake.
 async function readScene() {
   checking?.cancel();
   checking = runOiler([...command(), '--steps', '0', '--quiet', '--json', '-'], sceneFiles());
-  const result = await checking.result;
-  if (result.code !== null) showMistake(result);
-  if (result.code !== 0) return false;
-  const {method, rate, precision, damping} = JSON.parse(result.output);
+  const {failure, output} = await checking.result;
+  if (failure !== null) showMistake(failure);
+  if (failure !== '') return false;
+  const {method, rate, precision, damping} = JSON.parse(output.join(''));
   usualSetting = `${method}@${rate}`;
   settingsInText = [usualSetting, precision, damping].join();
   return true;
@@ -53,7 +53,7 @@ async function measure(args) {
   if (job !== measuring) return result;
   find('busy').hidden = true;
   find('results').ariaBusy = false;
-  if (result.code === null) find('results').append('Cancelled.');
+  if (result.failure === null) find('results').append('Cancelled.');
   return result;
 }
 
@@ -70,9 +70,9 @@ find('cancel').addEventListener('click', () => measuring.cancel());
 
 // Compares the state hash after 600 steps with that of the native program.
 find('bits').addEventListener('click', async () => {
-  const {code, output} = await measure([...command(), '--steps', '600', '--quiet', '--json', '-']);
-  if (code !== 0) return;
-  const {state_hash: hash, steps} = JSON.parse(output);
+  const {failure, output} = await measure([...command(), '--steps', '600', '--quiet', '--json', '-']);
+  if (failure !== '') return;
+  const {state_hash: hash, steps} = JSON.parse(output.join(''));
   const isChanged = isScene() && find('text').value !== game.text;
   const native = isChanged ? undefined : oilerList.hashes[game.name ?? game.file];
   const verdict = native === undefined ? '' :
