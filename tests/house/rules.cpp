@@ -210,7 +210,7 @@ std::vector<std::string> find_circle(const Graph& graph) {
 
 bool needs_this_system(const std::string& text) {
     static const std::regex use(
-        R"re(#\s*include <(sys/|unistd|dlfcn|fcntl|poll|c?signal)|"/(proc|dev)/|__(x86_64|aarch64|SSE|AVX|linux))re");
+        R"re(#\s*include <(sys/|unistd|dlfcn|fcntl|poll|c?signal)|\b(setenv|clock_gettime)\(|"/(proc|dev)/|__(x86_64|aarch64|SSE|AVX|linux))re");
     return std::regex_search(text, use);
 }
 
