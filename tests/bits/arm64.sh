@@ -39,7 +39,7 @@ done
 chmod +x "$programs"/*
 
 printf '%s\n' "$programs"/{core,math,physics,sim,stability,world,obstacle}_tests |
-    xargs -P "$(nproc)" -I{} {} --gtest_brief=1
+    xargs -P "$(nproc)" -n 1 sh -c '"$0" --gtest_brief=1'
 tests/bits/agree.sh build-bits/bin/bits_o0 "$programs/bits_built"
 
 # states FOLDER: each scene and demo with its state after 200 steps, by the programs in FOLDER.

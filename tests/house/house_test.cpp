@@ -129,6 +129,29 @@ TEST(House, ReadmeHasTheRoomsOfThePlan) {
         }
 }
 
+TEST(House, ReadmeNamesTheFilesThatAPortTouches) {
+    const std::string readme = read(source / "engine/README.md");
+    const std::string section = readme.substr(readme.find("\n## Another system\n"));
+    for (const auto& [file, text] : engine()) {
+        if (!needs_this_system(text)) continue;
+        const std::string name = "`" + fs::path(file).replace_extension().string() + "`";
+        EXPECT_NE(section.find(name), std::string::npos) << file;
+    }
+}
+
+/// References, distances that are only told, and sizes of cells that change no result.
+const std::set<fs::path> may_be_inexact{"physics/closed_forms.cpp", "sim/bodies_measures.cpp",
+                                        "world/neighbours.cpp"};
+
+TEST(House, StepsCallNoFunctionWhoseLastBitVaries) {
+    std::set<std::string> rooms = rooms_below("world");
+    rooms.insert("world");
+    rooms.erase("stability");
+    for (const auto& [file, text] : engine())
+        if (rooms.contains(room_of(file)) && !may_be_inexact.contains(file))
+            expect_none(find_inexact_functions(file, text));
+}
+
 TEST(House, DefinesNoNameTwice) { expect_none(find_doubled_names(engine())); }
 
 TEST(House, CompilesEverySourceFile) {
@@ -195,6 +218,20 @@ TEST(HouseRules, LetOnlyProvidersSeeWindowsAndGl) {
         EXPECT_EQ(wrong_includes("platform/egl.cpp", header), 0U) << header;
     }
     EXPECT_EQ(wrong_includes("render/gl.cpp", "glad/gl.h"), 0U);
+}
+
+TEST(HouseRules, FindWhatOnlyThisSystemHas) {
+    for (const char* text : {"#include <sys/wait.h>\n", "# include <csignal>", "#include <fcntl.h>",
+                             "open(\"/proc/self/exe\")", "#ifdef __SSE2__"})
+        EXPECT_TRUE(needs_this_system(text)) << text;
+    for (const char* text : {"#include <cerrno>\n", "a /proc/b", "#ifdef __clang__"})
+        EXPECT_FALSE(needs_this_system(text)) << text;
+}
+
+TEST(HouseRules, FindFunctionsWhoseLastBitVaries) {
+    EXPECT_EQ(find_inexact_functions("a.cpp", "x = std::cos(y) + std::hypot(x, y);").size(), 2U);
+    EXPECT_EQ(find_inexact_functions("a.cpp", "x = std::sqrt(y) + std::fma(x, y, y);").size(), 0U);
+    EXPECT_EQ(find_inexact_functions("a.cpp", "// std::cos(y)\n").size(), 0U);
 }
 
 TEST(HouseRules, FindDemosAndRelativePaths) {

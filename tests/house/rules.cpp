@@ -6,8 +6,8 @@
 #include <regex>
 #include <sstream>
 
-#include "house/scan.hpp"
 #include "house/rules.hpp"
+#include "house/scan.hpp"
 
 namespace oiler::house {
 namespace {
@@ -206,6 +206,22 @@ std::vector<std::string> find_circle(const Graph& graph) {
         return path;
     }
     return {};
+}
+
+bool needs_this_system(const std::string& text) {
+    static const std::regex use(
+        R"re(#\s*include <(sys/|unistd|dlfcn|fcntl|poll|c?signal)|\b(setenv|clock_gettime)\(|"/(proc|dev)/|__(x86_64|aarch64|SSE|AVX|linux))re");
+    return std::regex_search(text, use);
+}
+
+Faults find_inexact_functions(const fs::path& file, const std::string& text) {
+    static const std::regex call(
+        R"(\bstd::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p)?|pow|hypot|cbrt)\b)");
+    const std::string code = code_of(text);
+    Faults faults;
+    for (std::sregex_iterator at(code.begin(), code.end(), call), end; at != end; ++at)
+        faults.push_back(file.string() + ": its last bit depends on the processor: " + at->str());
+    return faults;
 }
 
 Faults check_form(const fs::path& file, const std::string& text) {

@@ -37,6 +37,12 @@ Graph include_graph(const Texts& texts, std::string (*node_of)(const std::filesy
 /// A circle such as {"a", "b", "a"}; empty if there is none.
 std::vector<std::string> find_circle(const Graph& graph);
 
+/// Whether a file uses headers or paths of POSIX or Linux, or asks for the processor.
+bool needs_this_system(const std::string& text);
+
+/// Functions of the C library in a file whose last bits depend on the processor.
+Faults find_inexact_functions(const std::filesystem::path& file, const std::string& text);
+
 /// The SPDX line, #pragma once, and no unfinished work.
 Faults check_form(const std::filesystem::path& file, const std::string& text);
 
