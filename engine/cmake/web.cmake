@@ -19,6 +19,10 @@ endforeach()
 file(CONFIGURE OUTPUT ${web_unknown} CONTENT "extern \"C\" {\n${declarations}}\n" @ONLY)
 add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${web_unknown}>")
 
+add_compile_options(-msimd128 $<$<COMPILE_LANGUAGE:CXX>:-fwasm-exceptions>
+                    $<$<COMPILE_LANGUAGE:CXX>:-fexperimental-library>)  # for std::jthread
+add_link_options(-fwasm-exceptions)
+
 # Only these: other headers of the machine do not hold for WebAssembly.
 set(web_include ${CMAKE_BINARY_DIR}/include)
 foreach(header fmt toml++ CLI nlohmann xxhash.h xxh3.h stb)

@@ -17,18 +17,10 @@ inside() {
         exec chroot "$0" sh -euc "cd \"$PWD\"; $1"' "$root" "$1"
 }
 
-if [ ! -e "$root/usr/bin/emcc" ]; then
-    debootstrap --variant=minbase trixie "$root"
-    sed -i 'p; s|^deb |deb-src |' "$root/etc/apt/sources.list"
-    inside 'apt-get update
-        apt-get install -y --no-install-recommends emscripten cmake ninja-build ccache dpkg-dev python3-glad libeigen3-dev \
-            libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libtomlplusplus-dev libjs-chart.js \
-            fonts-dejavu-core'
-fi
-mkdir -p build-web/packages
+[ -e "$root/usr/bin/apt-get" ] || debootstrap --variant=minbase trixie "$root"
+mkdir -p build-web
 tests/web/hashes.py build/bin >build-web/hashes.json
-inside 'cd build-web/packages; apt-get source --download-only --tar-only imgui libdeflate'
-inside 'cmake --preset web -DOILER_WEB_HASHES=$PWD/build-web/hashes.json; cmake --build --preset web'
+inside '.ci/page . -DOILER_WEB_HASHES=$PWD/build-web/hashes.json'
 
 build-bits/bin/bits_o0 >build-web/native.hashes
 for kernels in none baseline; do

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A canvas of a page. The page is told what the canvas shows, and answers with wishes, by functions
-// of the object Module: see web/play.js.
+// of the object Module: see assets/web/oiler.js.
 #include <emscripten/em_js.h>
 #include <emscripten/emscripten.h>
 #include <emscripten/html5.h>
@@ -19,21 +19,20 @@
 #include "oiler/platform/web_keys.hpp"
 
 // clang-format off: this is JavaScript.
-EM_JS(void, oiler_web_title, (const char* title), { Module.onTitle?.(UTF8ToString(title)); });
-EM_JS(void, oiler_web_text, (const char* line, const char* status, const char* setting), {
-    Module.onText?.(UTF8ToString(line), UTF8ToString(status), UTF8ToString(setting));
-});
-EM_JS(void, oiler_web_end, (const char* reason), { Module.onEnd?.(UTF8ToString(reason)); });
+EM_JS(void, oiler_web_title, (const char* title), { Module.onTitle ?.(UTF8ToString(title)); });
+EM_JS(void, oiler_web_text, (const char* line, const char* status, const char* setting),
+      { Module.onText ?.(UTF8ToString(line), UTF8ToString(status), UTF8ToString(setting)); });
+EM_JS(void, oiler_web_end, (const char* reason), { Module.onEnd ?.(UTF8ToString(reason)); });
 EM_JS(char*, oiler_web_wish, (), {
-    const wish = Module.takeWish?.();
+    const wish = Module.takeWish ?.();
     return wish ? stringToNewUTF8(wish) : 0;
 });
 EM_JS(char*, oiler_web_file, (), {
-    const file = Module.takeFile?.();
+    const file = Module.takeFile ?.();
     return file ? stringToNewUTF8(file) : 0;
 });
-EM_JS(bool, oiler_web_closes, (), { return Module.closes === true; });
-EM_JS(void, oiler_web_takes_text, (bool on), { Module.onTextInput?.(on); });
+EM_JS(bool, oiler_web_closes, (), { return Module.closes == = true; });
+EM_JS(void, oiler_web_takes_text, (bool on), { Module.onTextInput ?.(on); });
 EM_JS(double, oiler_web_pixels, (), { return window.devicePixelRatio || 1; });
 // clang-format on
 EM_JS_DEPS(oiler_web, "$UTF8ToString,$stringToNewUTF8");
@@ -146,21 +145,24 @@ private:
     }
 
     static EM_BOOL on_mouse(int type, const EmscriptenMouseEvent* event, void* user) {
-        std::vector<Event>& events = self(user).events_;
-        const int x = static_cast<int>(event->targetX);
-        const int y = static_cast<int>(event->targetY);
+        WebEvents& events = self(user);
+        const bool is_up = type == EMSCRIPTEN_EVENT_MOUSEUP;
+        // A button may go up outside, where the place has another origin.
+        Event mouse = is_up ? events.mouse_
+                            : Event{.what = What::mouse,
+                                    .x = static_cast<int>(event->targetX),
+                                    .y = static_cast<int>(event->targetY)};
         if (type == EMSCRIPTEN_EVENT_MOUSELEAVE) {
-            events.push_back({.what = What::leave});
-        } else if (type == EMSCRIPTEN_EVENT_MOUSEMOVE) {
-            events.push_back({.what = What::mouse, .x = x, .y = y});
-        } else if (event->button < mouse_buttons_of_dom.size()) {
-            events.push_back({.what = What::mouse,
-                              .button = mouse_buttons_of_dom[event->button],
-                              .down = type == EMSCRIPTEN_EVENT_MOUSEDOWN,
-                              .x = x,
-                              .y = y});
+            mouse.what = What::leave;
+        } else if (is_up || type == EMSCRIPTEN_EVENT_MOUSEDOWN) {
+            if (event->button >= mouse_buttons_of_dom.size()) return EM_FALSE;
+            mouse.button = mouse_buttons_of_dom[event->button];
+            mouse.down = !is_up;
+        } else {
+            events.mouse_ = mouse;
         }
-        return type != EMSCRIPTEN_EVENT_MOUSEDOWN;  // so that a click gives the canvas the keyboard
+        events.events_.push_back(mouse);
+        return EM_FALSE;  // so that a click gives the canvas the keyboard
     }
 
     static EM_BOOL on_wheel(int, const EmscriptenWheelEvent* event, void* user) {
@@ -235,6 +237,7 @@ private:
     }
 
     std::vector<Event> events_;
+    Event mouse_{.what = What::mouse};  ///< its last move
     bool text_ = false;
     double turned_ = 0;  ///< notches of a wheel that are not whole
     int fingers_ = 0;
