@@ -18,21 +18,23 @@
 #include "oiler/platform/hand_out.hpp"
 #include "oiler/platform/web_keys.hpp"
 
-// clang-format off: this is JavaScript.
-EM_JS(void, oiler_web_title, (const char* title), { Module.onTitle ?.(UTF8ToString(title)); });
-EM_JS(void, oiler_web_text, (const char* line, const char* status, const char* setting),
-      { Module.onText ?.(UTF8ToString(line), UTF8ToString(status), UTF8ToString(setting)); });
-EM_JS(void, oiler_web_end, (const char* reason), { Module.onEnd ?.(UTF8ToString(reason)); });
+// This is JavaScript.
+// clang-format off
+EM_JS(void, oiler_web_title, (const char* title), { Module.onTitle?.(UTF8ToString(title)); });
+EM_JS(void, oiler_web_text, (const char* line, const char* status, const char* setting), {
+    Module.onText?.(UTF8ToString(line), UTF8ToString(status), UTF8ToString(setting));
+});
+EM_JS(void, oiler_web_end, (const char* reason), { Module.onEnd?.(UTF8ToString(reason)); });
 EM_JS(char*, oiler_web_wish, (), {
-    const wish = Module.takeWish ?.();
+    const wish = Module.takeWish?.();
     return wish ? stringToNewUTF8(wish) : 0;
 });
 EM_JS(char*, oiler_web_file, (), {
-    const file = Module.takeFile ?.();
+    const file = Module.takeFile?.();
     return file ? stringToNewUTF8(file) : 0;
 });
-EM_JS(bool, oiler_web_closes, (), { return Module.closes == = true; });
-EM_JS(void, oiler_web_takes_text, (bool on), { Module.onTextInput ?.(on); });
+EM_JS(bool, oiler_web_closes, (), { return Module.closes === true; });
+EM_JS(void, oiler_web_takes_text, (bool on), { Module.onTextInput?.(on); });
 EM_JS(double, oiler_web_pixels, (), { return window.devicePixelRatio || 1; });
 // clang-format on
 EM_JS_DEPS(oiler_web, "$UTF8ToString,$stringToNewUTF8");
