@@ -48,6 +48,7 @@ async function measure(args) {
   find('lab').hidden = find('busy').hidden = false;
   find('results').textContent = '';
   find('results').ariaBusy = true;
+  find('lab').scrollIntoView({block: 'nearest'});
   const job = measuring = runOiler(args, sceneFiles(), line => find('results').append(line, '\n'));
   const result = await job.result;
   if (job !== measuring) return result;
@@ -77,5 +78,6 @@ find('bits').addEventListener('click', async () => {
   const native = isChanged ? undefined : oilerList.hashes[game.name ?? game.file];
   const verdict = native === undefined ? '' :
     native === hash ? ': equal to the native program' : `: the native program has ${native}`;
-  find('results').textContent = `State hash after ${steps} steps: ${hash}${verdict}.`;
+  find('lab').hidden = true;
+  say(`State hash after ${steps} steps: ${hash}${verdict}.`);
 });

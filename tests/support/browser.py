@@ -32,7 +32,7 @@ class Browser:
         self.process = subprocess.Popen(
             [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
              "--disable-dev-shm-usage", "--disable-background-networking",
-             "--force-color-profile=srgb",
+             "--force-color-profile=srgb", "--enable-unsafe-swiftshader",
              "--remote-debugging-pipe", f"--user-data-dir={profile}", "about:blank"],
             preexec_fn=connect, close_fds=False, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
@@ -84,9 +84,10 @@ class Browser:
             raise RuntimeError(details.get("exception", {}).get("description", details["text"]))
         return answer["result"].get("value")
 
-    def resize(self, width):
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=900,
-                  deviceScaleFactor=1, mobile=False)
+    def resize(self, width, height=900, is_phone=False):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=1, mobile=is_phone)
+        self.call("Emulation.setTouchEmulationEnabled", enabled=is_phone)
 
     def scheme(self, name):
         """`light` or `dark`."""
@@ -108,16 +109,22 @@ class Browser:
                   button="none" if kind == "mouseMoved" and not held else "left",
                   buttons=int(held), clickCount=1)
 
+    def touch(self, kind, *places):
+        """`kind` as in the protocol: touchStart, touchMove, touchEnd."""
+        self.call("Input.dispatchTouchEvent", type=kind,
+                  touchPoints=[dict(x=x, y=y) for x, y in places])
+
     def wheel(self, place, distance):
         """Down and to the right."""
         self.call("Input.dispatchMouseEvent", type="mouseWheel", x=place[0], y=place[1],
                   deltaX=distance, deltaY=distance)
 
-    def press(self, key, shift=False):
-        """`key` as in KeyboardEvent.key."""
+    def press(self, key, shift=False, code=""):
+        """`key` and `code` as in KeyboardEvent."""
         text = {"text": key} if len(key) == 1 else {}
-        code = {" ": 32, "ArrowLeft": 37, "ArrowRight": 39}.get(key, ord(key[0].upper()))
-        common = dict(key=key, windowsVirtualKeyCode=code, modifiers=8 if shift else 0)
+        number = {" ": 32, "ArrowLeft": 37, "ArrowRight": 39}.get(key, ord(key[0].upper()))
+        common = dict(key=key, code=code, windowsVirtualKeyCode=number,
+                      modifiers=8 if shift else 0)
         self.call("Input.dispatchKeyEvent", type="keyDown", **text, **common)
         self.call("Input.dispatchKeyEvent", type="keyUp", **common)
 
@@ -135,13 +142,14 @@ class Browser:
         self.mouse("mousePressed", place)
         self.mouse("mouseReleased", place)
 
-    def complaints(self):
-        """What was asked of the network, and what the console says."""
+    def complaints(self, allowed=("data:",)):
+        """What was asked of the network, but for addresses that begin as allowed, and what the
+        console says."""
         for event in self.events:
             params = event.get("params", {})
             if event["method"] == "Network.requestWillBeSent":
                 url = params["request"]["url"]
-                if not url.startswith("data:") and url != self.url:
+                if not url.startswith(allowed) and url != self.url:
                     yield f"asked the network for {url[:120]}"
             elif event["method"] == "Runtime.exceptionThrown":
                 details = params["exceptionDetails"]

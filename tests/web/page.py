@@ -1,0 +1,276 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Plays the page of `cmake --preset web` in Chromium and compares it with the native programs.
+
+    page.py PAGE PROGRAMS [--recordings N]    a line per failure; exits with 0 or 1
+
+PAGE is the folder of the page, PROGRAMS that of the native programs.
+"""
+import argparse
+import json
+import random
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from visit import Visit, native
+
+DEMOS = ("jump", "cannon", "platformer", "cloth", "integrator_race", "stability_map", "jump_rates",
+         "galton", "bounce", "projectile", "spring_damper", "hello")
+PLAYED_SCENES = ("jump", "orbit", "cloth", "pegs", "tiles", "wind")
+SCENES = Path(__file__).resolve().parents[2] / "assets/scenes"
+MARKUP = "<img src=x onerror=executed=1><script>executed=1</script>"
+
+
+def first_pictures(visit):
+    for link in (*DEMOS, *(f"scene={name}.toml" for name in PLAYED_SCENES)):
+        visit.play(link)
+        visit.expect(visit.browser.value("document.title") != "Oiler", f"{link}: no title")
+    visit.play("", "index.html")
+    cards = visit.browser.value("[...document.querySelectorAll('.cards a')].map(a => a.href)")
+    visit.expect(len(cards) == len(DEMOS) + len(list(SCENES.glob("*.toml"))), f"cards: {cards}")
+
+
+def layout(visit):
+    for link, page in (("", "index.html"), ("platformer", "play.html"),
+                       ("scene=jump.toml", "play.html")):
+        for width, height in ((1280, 720), (390, 844)):
+            visit.browser.resize(width, height, is_phone=width < 500)
+            visit.play(link, page)
+            wide = visit.browser.value("document.documentElement.scrollWidth")
+            visit.expect(wide <= width, f"{page}#{link} is {wide} wide of {width}")
+            small = visit.browser.value("""[...document.querySelectorAll('button, select')]
+                .filter(e => e.checkVisibility() && e.offsetHeight < 44).map(e => e.textContent)""")
+            visit.expect(width > 500 or not small, f"too small to touch: {small}")
+    visit.browser.resize(1280)
+
+
+def input_of_all_kinds(visit):
+    browser = visit.browser
+    visit.play("jump")
+    browser.press("ArrowLeft", code="ArrowLeft")
+    visit.wait_setting("semi_implicit_euler@144", "the key Left")
+    knob = visit.knob()
+    browser.mouse("mousePressed", knob)
+    browser.mouse("mouseMoved", (knob[0] - 150, knob[1]), held=True)
+    visit.wait("find('rate').value < 144", "the mouse drags the slider")
+    browser.mouse("mouseReleased", (knob[0] - 150, knob[1]))
+    visit.fill("rate", "120")
+    visit.wait_setting("semi_implicit_euler@120", "the field of the rate")
+    visit.wait("find('method').options.length > 30", "the list of methods")
+    visit.choose("method", "rk4")
+    visit.wait_setting("rk4@120", "the choice of the method")
+    visit.wait("location.hash === '#jump&setting=rk4@120'", "the link of the setting")
+    visit.click("pause")
+    visit.wait("find('pause').ariaPressed === 'true'", "the pause")
+    still = visit.picture()
+    visit.expect(visit.picture() == still, "the pause moves")
+    browser.click("document.querySelector('[data-code=F5]')")
+    visit.wait_picture(lambda now: now != still, "a step changes the picture")
+    browser.press("F3", code="F3")
+    visit.wait("find('pause').ariaPressed === 'false'", "the key F3")
+    touch(visit)
+
+
+def touch(visit):
+    visit.browser.resize(390, 844, is_phone=True)
+    visit.play("jump")
+    knob = visit.knob()
+    visit.browser.touch("touchStart", knob)
+    visit.browser.touch("touchMove", (knob[0] - 60, knob[1]))
+    visit.wait("find('rate').value < 240", "a finger drags the slider")
+    visit.browser.touch("touchEnd")
+    visit.play("platformer")
+    before = visit.picture()
+    visit.tap("document.querySelector('[data-code=Space]')")
+    visit.wait_picture(lambda now: now != before, "the button Space of the page jumps")
+    visit.browser.resize(1280)
+
+
+def bits(visit):
+    visit.play("jump")
+    for name in (*DEMOS, *(scene.name for scene in SCENES.glob("*.toml"))):
+        steps = ["--steps", "600", "--quiet", "--json", "-"]
+        on_page = [name, *steps] if name in DEMOS else ["oiler", "play", f"/scenes/{name}", *steps]
+        own = [name] if name in DEMOS else ["oiler", "play", str(SCENES / name)]
+        expected = json.loads(native(visit.programs, *own, *steps).stdout)["state_hash"]
+        result = visit.run(*on_page)
+        actual = result["output"] and json.loads("".join(result["output"]))["state_hash"]
+        visit.expect(actual == expected, f"{name}: {actual}, natively {expected}; {result['failure']}")
+    for link in ("hello", "scene=jump.toml"):
+        visit.play(link)
+        visit.click("bits")
+        visit.wait("find('said').textContent.includes('equal to the native')", f"bits of {link}")
+
+
+def script(game, dice):
+    """Random keys of a game, for --script, and how many steps they take."""
+    keys = {"hello": ["Space"], "jump": ["Left", "Right"], "jump_rates": ["Space", "Left"],
+            "platformer": ["Space", "Right", "E"]}[game]
+    steps = sorted(dice.sample(range(5, 80), 6))
+    return "".join(f"{step} press {dice.choice(keys)}\n" for step in steps), dice.randint(90, 150)
+
+
+def native_recordings(visit, count):
+    dice = random.Random(1)
+    for i in range(count):
+        game = dice.choice(("hello", "jump", "jump_rates", "platformer"))
+        text, steps = script(game, dice)
+        (visit.folder / "keys.txt").write_text(text)
+        file = visit.folder / f"{game}_{i}.rec"
+        native(visit.programs, game, "--script", visit.folder / "keys.txt", "--steps", steps,
+               "--record", file)
+        visit.play("cannon")
+        visit.give_file(file)
+        visit.wait(f"find('said').textContent.includes('{steps} of {steps} steps')",
+                   f"the page replays {file.name}")
+
+
+def page_recordings(visit, count):
+    dice = random.Random(2)
+    for i in range(count):
+        game = dice.choice(("hello", "jump", "platformer"))
+        visit.play(game)
+        visit.click("record")
+        visit.wait("playing.isRecording", "a recording")
+        for _ in range(dice.randint(3, 8)):
+            key, code = dice.choice(((" ", "Space"), ("ArrowLeft",) * 2, ("ArrowRight",) * 2))
+            visit.browser.press(key, code=code)
+            visit.sleep(dice.uniform(0.05, 0.4))
+        file = visit.download(lambda: visit.click("record"), f"{game}.rec")
+        answer = native(visit.programs, game, "--replay", file, "--steps", 100000)
+        visit.expect(answer.returncode == 0 and "the replay equals" in answer.stderr,
+                     f"{game} does not replay {i}: {answer.stderr}")
+        file.unlink()
+
+
+def editor(visit):
+    visit.play("scene=jump.toml")
+    visit.wait("find('text').value", "the text of the scene")
+    text = (SCENES / "jump.toml").read_text()
+    visit.expect(visit.browser.value("find('text').value") == text, "another text than the file's")
+    for wrong in (text.replace("radius", "radus"), text.replace("axes = 2", "axes = 9"), "["):
+        (visit.folder / "scene.toml").write_text(wrong)
+        answer = native(visit.programs, "oiler", "play", visit.folder / "scene.toml", "--steps", 0)
+        line, words = re.search(r":(\d+): (.*)", answer.stderr).groups()
+        visit.type(wrong)
+        visit.wait(f"find('mistake').textContent === {json.dumps(f'Line {line}: {words}')}",
+                   f"line {line}: {words}")
+    visit.type(text.replace("9.0", "7.5").replace("rate = 60", "rate = 90"))
+    visit.wait_setting("semi_implicit_euler@90", "the rate of the text")
+    visit.expect(visit.text("mistake") == "", f"a mistake in a right text: {visit.text('mistake')}")
+    visit.wait("location.hash.startsWith('#deflated=')", "the link of the text")
+    visit.choose("method", "rk4")
+    visit.wait("location.hash.endsWith('&setting=rk4@90')", "the setting in the link")
+    return visit.browser.value("[location.hash.slice(1), find('text').value]")
+
+
+def link_in_fresh_browser(visit, link, text):
+    visit.play(link)
+    visit.expect(visit.browser.value("find('text').value") == text, "the link has another text")
+    visit.wait_setting("rk4@90", "the setting of the link")
+
+
+def lab(visit):
+    visit.play("scene=jump.toml")
+    visit.wait("find('text').value", "the text of the scene")
+    visit.browser.click("document.querySelector('[data-command=rates]')")
+    visit.wait("find('results').ariaBusy === 'false'", "the rates")
+    expected = native(visit.programs, "oiler", "rates", SCENES / "jump.toml").stdout
+    visit.expect(expected in visit.text("results"), f"other rates: {visit.text('results')}")
+    visit.browser.click("document.querySelector('[data-command=advise]')")
+    visit.wait("find('results').textContent.includes('velocity_verlet at 60 Hz')", "the advice")
+    visit.play("scene=pegs.toml")
+    visit.wait("find('text').value", "the text of the scene")
+    visit.browser.click("document.querySelector('[data-command=rates]')")
+    visit.wait("find('cancel').checkVisibility()", "a button to cancel")
+    visit.click("cancel")
+    visit.wait("find('results').textContent.endsWith('Cancelled.')", "the end of the rates")
+
+
+def hostile(visit):
+    """Nothing of a link, a file or its name is executed, and each is answered in one line."""
+    scene = f'[scene]\naxes = 2\ntitle = "{MARKUP}"\n[[body]]\nname = "{MARKUP}"\n'
+    refused = [("%3Cimg src=x onerror=executed=1%3E", "no such demo or scene"),
+               ("__proto__", "no such demo or scene"), ("scene=../../etc/passwd", "no such"),
+               ("scene=constructor", "no such"), ("deflated=AAAA", "damaged"),
+               ("deflated=" + visit.deflated(b"a" * 50_000_000), "damaged"), ("text=!", "damaged")]
+    for link, words in refused:
+        visit.open(link)
+        visit.wait(f"find('problem').textContent.includes('{words}')", f"{link[:40]}: {words}")
+    visit.play("deflated=" + visit.deflated(scene.encode()))
+    visit.play("jump&setting=%3Cb%3E@60&setting=--json@60")
+    visit.wait_setting("semi_implicit_euler@240", "a hostile setting")
+    for name, content, words in (
+            (f"{MARKUP.replace('/', '')}.toml", scene.encode(), None),
+            ("large.toml", b"#" * 70_000, "64 KiB"),
+            ("a.rec", b'OILERREC 3\n{"game":"%s"}\n' % MARKUP.encode(), "not here"),
+            ("b.rec", b"OILERREC 3\n", "damaged"),
+            ("c.rec", b'OILERREC 3\n{"game":"hello"}\n', "hello: --replay:"),
+            ("d.toml", MARKUP.encode(), None)):
+        (visit.folder / name).write_bytes(content)
+        visit.play("jump")
+        visit.give_file(visit.folder / name)
+        if words:
+            visit.wait(f"find('problem').textContent.includes('{words}')", f"{name}: {words}")
+        else:
+            visit.wait("location.hash.startsWith('#deflated=') && find('text').value", name)
+    visit.wait("find('mistake').textContent.startsWith('Line 1')", "markup is no scene")
+
+
+def as_files(visit, folder):
+    for page in ("index.html", "play.html"):
+        visit.play("", page, (folder / page).as_uri())
+    visit.click("bits")
+    visit.wait("find('said').textContent.includes('equal to the native')", "bits from a file")
+
+
+def lacks(visit):
+    """A lost context begins anew; what a browser lacks is told in a line."""
+    visit.play("hello")
+    visit.browser.value("""find('canvas').old = true;
+        find('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()""")
+    visit.wait("!find('canvas').old", "a new canvas")
+    visit.wait_picture(lambda now: now.has_colours(), "the picture after a lost context")
+    for script_text, words in (("HTMLCanvasElement.prototype.getContext = () => null", "WebGL 2"),
+                               ("delete window.WebAssembly", "WebAssembly")):
+        visit.before_scripts(script_text)
+        for page in ("play.html", "index.html"):
+            visit.open("jump", page)
+            visit.wait(f"document.querySelector('#problem').textContent.includes('{words}')", words)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("page", type=Path)
+    parser.add_argument("programs", type=Path)
+    parser.add_argument("--recordings", type=int, default=3)
+    options = parser.parse_args()
+    failures = []
+    with tempfile.TemporaryDirectory() as folder, Visit.server(options.page) as origin:
+        def visiting(*check, complains=True):
+            with Visit(origin, options.programs.resolve(), Path(folder)) as visit:
+                answer = visit.attempt(*check)
+                failures.extend(f"{check[0].__name__}: {failure}"
+                                for failure in visit.all_failures(complains))
+                return answer
+
+        for check in (first_pictures, layout, input_of_all_kinds, bits, lab, hostile):
+            visiting(check)
+        visiting(native_recordings, options.recordings)
+        visiting(page_recordings, options.recordings)
+        edited = visiting(editor)
+        if edited:
+            visiting(link_in_fresh_browser, *edited)
+        visiting(as_files, options.page.resolve())
+        visiting(lacks, complains=False)
+    for failure in failures:
+        print(" ".join(failure.split()))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
