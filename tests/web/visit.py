@@ -9,7 +9,7 @@ import tempfile
 import threading
 import time
 import zlib
-from base64 import urlsafe_b64encode
+from base64 import b64decode, urlsafe_b64encode
 
 import png
 from browser import PATIENCE, Browser
@@ -28,9 +28,9 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         pass
 
 
-class Shot(png.Picture):
-    def has_colours(self):
-        return len({row[i:i + 3] for row in self.rows for i in range(0, len(row), 3)}) > 2
+def has_colours(picture):
+    rows = png.decode(picture[0]).rows
+    return len({row[i:i + 3] for row in rows for i in range(0, len(row), 3)}) > 2
 
 
 class Visit:
@@ -102,33 +102,32 @@ class Visit:
     def play(self, *place):
         """Opens it and waits for a picture."""
         self.open(*place)
-        self.wait_picture(Shot.has_colours, f"a picture of {place}")
+        self.wait_picture(has_colours, f"a picture of {place}")
         problem = self.text("problem")
         self.expect(problem == "", f"{place}: {problem}")
 
     def text(self, element):
         return self.browser.value(f"document.querySelector('#{element}').textContent")
 
-    def picture(self):
-        """The lower three quarters of the canvas, without the line."""
+    def picture(self, scale=0.25):
+        """A PNG of the lower three quarters of the canvas, without the line, and its place."""
         x, y, width, height = self.browser.value("""(() => {
-            const canvas = document.querySelector('#canvas');
-            const box = canvas.getBoundingClientRect();
-            return [box.x, box.y, box.width, box.height].map(Math.round); })()""")
-        cut = height // 4
-        shot = png.decode(self.browser.screenshot(x + 3, y + cut, width - 6, height - cut - 3))
-        return Shot(shot.width, shot.height, shot.rows)
+            const box = document.querySelector('#canvas').getBoundingClientRect();
+            return [box.x + scrollX + 3, box.y + scrollY + box.height / 4, box.width - 6,
+                    box.height * 3 / 4 - 3].map(Math.round); })()""")
+        clip = dict(x=x, y=y, width=width, height=height, scale=scale)
+        return b64decode(self.browser.call("Page.captureScreenshot", clip=clip)["data"]), (x, y)
 
     def knob(self):
-        """Where the slider of the jump has its knob: the only square of ink."""
-        shot, ink, side = self.picture(), bytes((40, 44, 52)), 7
-        box = self.browser.value("""(() => { const box = document.querySelector('#canvas')
-            .getBoundingClientRect(); return [box.x, box.y, box.height]; })()""")
+        """Where the slider of the jump has its knob, the only square of ink."""
+        data, (left, top) = self.picture(scale=1)
+        shot, ink, side = png.decode(data), bytes((40, 44, 52)), 5
         for y in range(shot.height - side, shot.height // 2, -1):
             x = shot.rows[y].find(ink * side) // 3
             if x > 0 and all(row[3 * x:3 * (x + side)] == ink * side
                              for row in shot.rows[y - side:y]):
-                return [box[0] + 3 + x + side // 2, box[1] + box[2] // 4 + y - side // 2]
+                scroll = self.browser.value("[scrollX, scrollY]")
+                return [left + x + side // 2 - scroll[0], top + y - side // 2 - scroll[1]]
         raise LookupError("the slider has no knob")
 
     def click(self, element):
