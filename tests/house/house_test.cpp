@@ -152,6 +152,14 @@ TEST(House, StepsCallNoFunctionWhoseLastBitVaries) {
             expect_none(find_inexact_functions(file, text));
 }
 
+// Its digits depend on the processor.
+TEST(House, WorldsTakeNoLongDouble) {
+    for (const auto& [file, text] : engine())
+        if (room_of(file) == "world") {
+            EXPECT_EQ(text.find("long double"), std::string::npos) << file;
+        }
+}
+
 TEST(House, DefinesNoNameTwice) { expect_none(find_doubled_names(engine())); }
 
 TEST(House, CompilesEverySourceFile) {

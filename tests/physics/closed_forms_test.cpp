@@ -7,8 +7,11 @@
 namespace oiler::test {
 namespace {
 
+/// The bits of T that references and series have, too: on ARM64, long double has 113.
 template <class T>
-constexpr T round_off = std::numeric_limits<T>::epsilon() / 2;
+constexpr int bits = std::min(std::numeric_limits<T>::digits, 64);
+template <class T>
+constexpr T round_off = T(0.5) / static_cast<T>(1ULL << (bits<T> - 1));
 
 template <class T>
 struct Oscillator {
@@ -254,7 +257,7 @@ template <class T>
 T unit_at(T x) {
     using Limits = std::numeric_limits<T>;
     const int exponent = x == 0 ? Limits::min_exponent : std::ilogb(x);
-    return std::ldexp(T(1), std::max(exponent, Limits::min_exponent - 1) - Limits::digits + 1);
+    return std::ldexp(T(1), std::max(exponent, Limits::min_exponent - 1) - bits<T> + 1);
 }
 
 /// The error of a cancelled sum of size 1: nearly twice the digits of double, also for float.

@@ -9,7 +9,8 @@ namespace {
 using State3 = State<Real, 3>;
 using Vec3l = Vec<Real, 3>;
 
-constexpr Real round_off = std::numeric_limits<Real>::epsilon() / 2;
+/// Of 64 bits, which references and series have, too: on ARM64, Real has 113.
+constexpr Real round_off = std::max(std::numeric_limits<Real>::epsilon(), 0x1p-63L) / 2;
 constexpr Real pi = std::numbers::pi_v<Real>;
 
 Real length(const Vec3l& a) { return std::hypot(a[0], a[1], a[2]); }
