@@ -168,6 +168,7 @@ TEST(House, CompilesEverySourceFile) {
     std::vector<fs::path> files;
     for (const auto& [file, text] : all_files()) files.push_back(file);
     Texts cmake_files = read_below("tests", {".txt", ".cmake"}, "");
+    cmake_files.merge(read_below("engine/oiler/platform", {".txt"}, ""));
     std::erase_if(cmake_files, [](const auto& file) {
         return file.first.extension() == ".txt" && file.first.filename() != "CMakeLists.txt";
     });
@@ -301,6 +302,11 @@ TEST(HouseRules, FindANameThatTwoFilesDefine) {
     EXPECT_EQ(find_doubled_names(texts).size(), 1U);
     texts["scene/keys.cpp"] = "namespace oiler {\n";
     EXPECT_EQ(find_doubled_names(texts), Faults{"scene/keys.cpp: brackets do not match"});
+    texts["scene/keys.cpp"] = "";
+    texts["platform/web.cpp"] = range;
+    EXPECT_EQ(find_doubled_names(texts), Faults{});
+    texts["platform/sdl2.cpp"] = range;
+    EXPECT_EQ(find_doubled_names(texts).size(), 1U);
 }
 
 /// Whether the rule objects to `file` when `text` is the CMake file `cmake`.
@@ -327,6 +333,10 @@ TEST(HouseCompiles, AcceptsOptionalFilesThatCMakeNames) {
     EXPECT_TRUE(is_uncompiled("tests/bench/main.cpp", bench, "#[[\nmain.cpp\n]]\n"));
     EXPECT_TRUE(is_uncompiled("tests/fuzz/main.cpp", bench, "add_executable(b main.cpp)"));
     EXPECT_TRUE(is_uncompiled("tests/bench/main.cpp", "tests/CMakeLists.txt", "main.cpp"));
+    const char* platform = "engine/oiler/platform/CMakeLists.txt";
+    EXPECT_FALSE(is_uncompiled("engine/oiler/platform/web.cpp", platform, "set(sources web.cpp)"));
+    EXPECT_TRUE(is_uncompiled("engine/oiler/platform/web.cpp", platform, "set(sources egl.cpp)"));
+    EXPECT_TRUE(is_uncompiled("engine/oiler/platform/egl.cpp", platform, "set(sources egl.cpp)"));
     EXPECT_FALSE(is_uncompiled("tests/bits/hash.cpp", "tests/bits/bits.cmake",
                                "set(sources ${CMAKE_CURRENT_LIST_DIR}/hash.cpp)"));
 }

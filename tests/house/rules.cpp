@@ -98,6 +98,12 @@ std::string optional_folder_of(const fs::path& file) {
     return {};
 }
 
+/// Whether a page has the file in place of others, by its path in the engine or in the tree.
+bool is_of_page(const fs::path& file) {
+    return file.parent_path().filename() == "platform" &&
+           file.filename().string().starts_with("web");
+}
+
 /// The arguments and commands of a CMake file, without folders: "state_hash.cpp" for
 /// "${CMAKE_CURRENT_LIST_DIR}/state_hash.cpp".
 Names cmake_words(const std::string& text) {
@@ -125,7 +131,8 @@ bool names_file(const std::string& word, const std::string& file, const Names& w
 
 bool is_named(const fs::path& file, const std::string& folder, const Texts& cmake_files) {
     for (const auto& [path, text] : cmake_files) {
-        if (optional_folder_of(path) != folder) continue;
+        const bool is_beside = is_of_page(file) && path.parent_path() == file.parent_path();
+        if (!is_beside && optional_folder_of(path) != folder) continue;
         const Names words = cmake_words(text);
         if (std::any_of(words.begin(), words.end(), [&](const std::string& word) {
                 return names_file(word, file.filename().string(), words);
@@ -243,6 +250,7 @@ Faults find_doubled_names(const Texts& texts) {
     for (const auto& [file, text] : texts) {
         const Definitions found = find_definitions(text);
         if (!found.balanced) faults.push_back(file.string() + ": brackets do not match");
+        if (is_of_page(file)) continue;
         for (const std::string& name : found.names) files_of[name].insert(file.string());
     }
     for (const auto& [name, files] : files_of) {
@@ -260,7 +268,7 @@ Faults find_uncompiled(const std::vector<fs::path>& files, const std::set<fs::pa
     for (const fs::path& file : files) {
         if (file.extension() != ".cpp" || compiled.count(file) == 1) continue;
         const std::string folder = optional_folder_of(file);
-        if (folder.empty() || !is_named(file, folder, cmake_files))
+        if ((folder.empty() && !is_of_page(file)) || !is_named(file, folder, cmake_files))
             faults.push_back(file.string() + ": no build compiles it");
     }
     return faults;

@@ -46,11 +46,12 @@ Faults find_inexact_functions(const std::filesystem::path& file, const std::stri
 /// The SPDX line, #pragma once, and no unfinished work.
 Faults check_form(const std::filesystem::path& file, const std::string& text);
 
-/// Names that two files define in one namespace, and files whose brackets do not match.
+/// Names that two files define in one namespace, and files whose brackets do not match. The files
+/// web*.cpp of `platform` are built in place of others.
 Faults find_doubled_names(const Texts& texts);
 
 /// Files that no build compiles. `compiled`: the files of CMake's compile commands. `cmake_files`:
-/// the CMake files of the tree; they count in the plan's optional folders only.
+/// the CMake files of the tree; they count in the plan's optional folders, and for web*.cpp.
 Faults find_uncompiled(const std::vector<std::filesystem::path>& files,
                        const std::set<std::filesystem::path>& compiled, const Texts& cmake_files);
 

@@ -34,9 +34,12 @@ TEST(WebKeys, GiveEachKeyOneCode) {
     for (const auto& [first, names] : key_codes)
         for (const std::string_view name : names)
             if (!name.empty()) found.insert(key_of_code(name).value());
-    for (std::uint16_t id = 0; id < 256; ++id)
-        if (const auto button = Button::of_id(id))
+    for (std::uint16_t id = 0; id < 256; ++id) {
+        const auto button = Button::of_id(id);
+        if (button) {
             EXPECT_EQ(found.count(static_cast<Key>(id)), 1U) << name_of(*button);
+        }
+    }
 }
 
 TEST(WebKeys, KnowNoOtherCodes) {

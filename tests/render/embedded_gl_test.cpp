@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 
+#include "oiler/picture/palette.hpp"
+#include "oiler/picture/shapes.hpp"
 #include "render/drawing.hpp"
 
 namespace oiler::test {
