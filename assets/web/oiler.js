@@ -38,7 +38,7 @@ function loadScript(src) {
 // this function, too.
 function oilerOptions(wasm, args, files) {
   const options = {
-    arguments: args,
+    arguments: [...args],  // the program puts its own name before them
     instantiateWasm(imports, done) {
       WebAssembly.instantiate(wasm, imports).then(done);
       return {};
