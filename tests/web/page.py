@@ -76,6 +76,11 @@ def loop_keys(visit):
     visit.wait_picture(lambda now: now != still, "a step changes the picture")
     visit.browser.press("F3", code="F3")
     visit.wait("find('pause').ariaPressed === 'false'", "the key F3")
+    visit.browser.press("F3", code="F3")
+    visit.wait("find('pause').ariaPressed === 'true'", "the pause")
+    still = visit.picture()
+    visit.browser.click("document.querySelector('[data-code=F1]')")
+    visit.wait_picture(lambda now: now != still, "the inspector opens")
 
 
 def touch(visit):
