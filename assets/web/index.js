@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 'use strict';
 
+// The page of a game begins with the game.
+if (oilerList.demos.length === 1) location.replace('play.html');
+
 function card(link, picture, name, text) {
   const image = Object.assign(new Image(240, 135), {src: `pictures/${picture}.png`, alt: ''});
   image.loading = 'lazy';

@@ -41,7 +41,7 @@ async function linkOfText(text) {
 
 // Returns {name} of a demo, {file} of the list or {text}, each with a setting or undefined.
 async function readLink(hash) {
-  const parameters = new URLSearchParams(hash.slice(1) || 'jump');
+  const parameters = new URLSearchParams(hash.slice(1) || oilerList.demos[0].name);
   const [[key, value]] = parameters;
   const setting = settingPattern.exec(parameters.get('setting') ?? '')?.[0];
   if (key === 'scene') return {file: value, setting};

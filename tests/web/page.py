@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Plays the page of `cmake --preset web` in Chromium and compares it with the native programs.
 
-    page.py PAGE PROGRAMS [--recordings N]    a line per failure; exits with 0 or 1
+    page.py PAGE PROGRAMS [--recordings N | --game]    a line per failure; exits with 0 or 1
 
 PAGE is the folder of the page, PROGRAMS that of the native programs.
 """
@@ -32,6 +32,15 @@ def first_pictures(visit):
     visit.play("", "index.html")
     cards = visit.browser.value("[...document.querySelectorAll('.cards a')].map(a => a.href)")
     visit.expect(len(cards) == len(DEMOS) + len(list(SCENES.glob("*.toml"))), f"cards: {cards}")
+
+
+def game(visit):
+    """The page of one game begins with it; its bits are those of the native program."""
+    visit.play("", "index.html")
+    visit.wait("document.querySelector('#line').textContent !== ''", "a line on the timestep")
+    visit.click("bits")
+    report = native(visit.programs, "project_game", "--steps", 600, "--json", "-").stdout
+    visit.wait(f"find('said').textContent.includes('{json.loads(report)['state_hash']}')", "its bits")
 
 
 def layout(visit):
@@ -257,6 +266,7 @@ def main():
     parser.add_argument("page", type=Path)
     parser.add_argument("programs", type=Path)
     parser.add_argument("--recordings", type=int, default=3)
+    parser.add_argument("--game", action="store_true", help="PAGE is that of one game")
     options = parser.parse_args()
     failures = []
     with tempfile.TemporaryDirectory() as folder, Visit.server(options.page) as origin:
@@ -267,15 +277,21 @@ def main():
                                 for failure in visit.all_failures(complains))
                 return answer
 
-        for check in (first_pictures, layout, settings, loop_keys, touch, bits, lab, hostile):
-            visiting(check)
-        visiting(native_recordings, options.recordings)
-        visiting(page_recordings, options.recordings)
-        edited = visiting(editor)
-        if edited:
-            visiting(link_in_fresh_browser, *edited)
-        visiting(as_files, options.page.resolve())
-        visiting(lacks, complains=False)
+        def visit_all():
+            for check in (first_pictures, layout, settings, loop_keys, touch, bits, lab, hostile):
+                visiting(check)
+            visiting(native_recordings, options.recordings)
+            visiting(page_recordings, options.recordings)
+            edited = visiting(editor)
+            if edited:
+                visiting(link_in_fresh_browser, *edited)
+            visiting(as_files, options.page.resolve())
+            visiting(lacks, complains=False)
+
+        if options.game:
+            visiting(game)
+        else:
+            visit_all()
     for failure in failures:
         print(" ".join(failure.split()))
     return 1 if failures else 0

@@ -32,3 +32,9 @@ for kernels in none baseline; do
     echo "kernels $kernels: $(wc -l <build-web/wasm.hashes) hashes of WebAssembly agree"
 done
 tests/web/page.py build-web/page build/bin
+
+rm -rf build-web/mygame
+build/bin/oiler new build-web/mygame
+rm build-web/mygame/local.cmake
+inside '.ci/page build-web/mygame'
+tests/web/page.py build-web/mygame/build-web/page build/bin --game
