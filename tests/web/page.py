@@ -231,7 +231,7 @@ def hostile(visit):
             ("d.toml", MARKUP.encode(), None)):
         (visit.folder / name).write_bytes(content)
         visit.play("jump")
-        visit.give_file(visit.folder / name)
+        (visit.drop_file if name.endswith(".toml") else visit.give_file)(visit.folder / name)
         if words:
             visit.wait(f"find('problem').textContent.includes('{words}')", f"{name}: {words}")
         else:
