@@ -103,7 +103,8 @@ function sendKey(type, code) {
 
 for (const button of document.querySelectorAll('[data-code]')) {
   const {code} = button.dataset;
-  button.addEventListener('mousedown', event => event.preventDefault());  // the game keeps the focus
+  // The game keeps the focus.
+  button.addEventListener('mousedown', event => event.preventDefault());
   button.addEventListener('pointerdown', () => sendKey('keydown', code));
   for (const type of ['pointerup', 'pointerleave', 'pointercancel'])
     button.addEventListener(type, () => sendKey('keyup', code));

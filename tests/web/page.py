@@ -115,7 +115,8 @@ def bits(visit):
         expected = json.loads(native(visit.programs, *own, *steps).stdout)["state_hash"]
         result = visit.run(*on_page)
         actual = result["output"] and json.loads("".join(result["output"]))["state_hash"]
-        visit.expect(actual == expected, f"{name}: {actual}, natively {expected}; {result['failure']}")
+        visit.expect(actual == expected,
+                     f"{name}: {actual}, natively {expected}; {result['failure']}")
     for link in ("hello", "scene=jump.toml"):
         visit.play(link)
         visit.click("bits")
