@@ -228,7 +228,7 @@ def hostile(visit):
             ("large.toml", b"#" * 70_000, "64 KiB"),
             ("a.rec", b'OILERREC 3\n{"game":"%s"}\n' % MARKUP.encode(), "not here"),
             ("b.rec", b"OILERREC 3\n", "damaged"),
-            ("c.rec", b'OILERREC 3\n{"game":"hello"}\n', "hello: --replay:"),
+            ("c.rec", b'OILERREC 3\n{"game":"hello"}\n', "hello: --replay"),
             ("d.toml", MARKUP.encode(), None)):
         (visit.folder / name).write_bytes(content)
         visit.play("jump")
