@@ -38,7 +38,7 @@ function loadScript(src) {
 // this function, too.
 function oilerOptions(wasm, args, files) {
   const options = {
-    arguments: args,
+    arguments: [...args],  // the program puts its own name before them
     instantiateWasm(imports, done) {
       WebAssembly.instantiate(wasm, imports).then(done);
       return {};
@@ -60,8 +60,8 @@ async function playOiler(canvas, args, files, hooks) {
 // Messages of errors begin with the program's name.
 const failureIn = (lines, args) => lines.find(line => line.startsWith(`${args[0]}: `)) ?? '';
 
-// Returns {result, cancel}. The result has the lines of both streams and the failure, which is '' if
-// there is none and null if the command was cancelled.
+// Returns {result, cancel}. The result has the lines of both streams and the failure: '' if there is
+// none, null if the command was cancelled.
 function runOiler(args, files, onLine = () => {}) {
   const lines = {output: [], errors: []};
   const {promise, resolve} = withResolvers();

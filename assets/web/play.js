@@ -60,7 +60,7 @@ async function start(options, files) {
     resolve();
     if (isLost) play(options, files);
     else if (reason) complain(reason);
-    else say(remarks.at(-1) ?? 'The game has ended.');
+    else say(remarks.find(line => line.includes('replay')) ?? 'The game has ended.');
   };
   try {
     const args = [...command(), ...options];
@@ -103,7 +103,8 @@ function sendKey(type, code) {
 
 for (const button of document.querySelectorAll('[data-code]')) {
   const {code} = button.dataset;
-  button.addEventListener('mousedown', event => event.preventDefault());  // the game keeps the focus
+  // The game keeps the focus.
+  button.addEventListener('mousedown', event => event.preventDefault());
   button.addEventListener('pointerdown', () => sendKey('keydown', code));
   for (const type of ['pointerup', 'pointerleave', 'pointercancel'])
     button.addEventListener(type, () => sendKey('keyup', code));
@@ -175,6 +176,7 @@ find('record').addEventListener('click', async () => {
   setRecording(recorded, true);
   await recorded.ended;
   setRecording(recorded, false);
+  if (!module.FS.analyzePath(recordingFile).exists) return;  // the game told why
   const name = `${game.name}.rec`;
   save(module.FS.readFile(recordingFile), name);
   await play();

@@ -71,7 +71,8 @@ find('cancel').addEventListener('click', () => measuring.cancel());
 
 // Compares the state hash after 600 steps with that of the native program.
 find('bits').addEventListener('click', async () => {
-  const {failure, output} = await measure([...command(), '--steps', '600', '--quiet', '--json', '-']);
+  const run = ['--steps', '600', '--quiet', '--json', '-'];
+  const {failure, output} = await measure([...command(), ...run]);
   if (failure !== '') return;
   const {state_hash: hash, steps} = JSON.parse(output.join(''));
   const isChanged = isScene() && find('text').value !== game.text;

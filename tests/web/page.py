@@ -85,6 +85,11 @@ def loop_keys(visit):
     visit.wait_picture(lambda now: now != still, "a step changes the picture")
     visit.browser.press("F3", code="F3")
     visit.wait("find('pause').ariaPressed === 'false'", "the key F3")
+    visit.browser.press("F3", code="F3")
+    visit.wait("find('pause').ariaPressed === 'true'", "the pause")
+    still = visit.picture()
+    visit.browser.click("document.querySelector('[data-code=F1]')")
+    visit.wait_picture(lambda now: now != still, "the inspector opens")
 
 
 def touch(visit):
@@ -110,7 +115,8 @@ def bits(visit):
         expected = json.loads(native(visit.programs, *own, *steps).stdout)["state_hash"]
         result = visit.run(*on_page)
         actual = result["output"] and json.loads("".join(result["output"]))["state_hash"]
-        visit.expect(actual == expected, f"{name}: {actual}, natively {expected}; {result['failure']}")
+        visit.expect(actual == expected,
+                     f"{name}: {actual}, natively {expected}; {result['failure']}")
     for link in ("hello", "scene=jump.toml"):
         visit.play(link)
         visit.click("bits")
@@ -222,11 +228,11 @@ def hostile(visit):
             ("large.toml", b"#" * 70_000, "64 KiB"),
             ("a.rec", b'OILERREC 3\n{"game":"%s"}\n' % MARKUP.encode(), "not here"),
             ("b.rec", b"OILERREC 3\n", "damaged"),
-            ("c.rec", b'OILERREC 3\n{"game":"hello"}\n', "hello: --replay:"),
+            ("c.rec", b'OILERREC 3\n{"game":"hello"}\n', "hello: --replay"),
             ("d.toml", MARKUP.encode(), None)):
         (visit.folder / name).write_bytes(content)
         visit.play("jump")
-        visit.give_file(visit.folder / name)
+        (visit.drop_file if name.endswith(".toml") else visit.give_file)(visit.folder / name)
         if words:
             visit.wait(f"find('problem').textContent.includes('{words}')", f"{name}: {words}")
         else:

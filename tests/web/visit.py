@@ -160,6 +160,11 @@ class Visit:
         self.browser.call("DOM.setFileInputFiles", files=[str(path)],
                           objectId=chooser["objectId"])
 
+    def drop_file(self, path):
+        data = dict(items=[], files=[str(path)], dragOperationsMask=1)
+        for kind in ("dragEnter", "dragOver", "drop"):
+            self.browser.call("Input.dispatchDragEvent", type=kind, x=200, y=200, data=data)
+
     def download(self, click, name):
         self.browser.call("Browser.setDownloadBehavior", behavior="allow",
                           downloadPath=str(self.folder))
