@@ -73,6 +73,11 @@ def settings(visit):
     visit.choose("method", "rk4")
     visit.wait_setting("rk4@120", "the choice of the method")
     visit.wait("location.hash === '#jump&setting=rk4@120'", "the link of the setting")
+    visit.play("jump&setting=rk4@120")
+    visit.wait_setting("rk4@120", "the setting of the link")
+    visit.click("copy")
+    visit.wait("find('said').textContent.includes('ink')", "an answer to Copy link")
+    visit.wait("location.hash === '#jump&setting=rk4@120'", "the copied link")
 
 
 def loop_keys(visit):
