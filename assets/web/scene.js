@@ -4,7 +4,6 @@
 
 let checking = null;
 let measuring = null;
-let settingsInText = '';  // of the last right text
 let typing;
 
 function showMistake(failure) {
@@ -22,17 +21,16 @@ async function readScene() {
   const {failure, output} = await checking.result;
   if (failure !== null) showMistake(failure);
   if (failure !== '') return false;
-  const {method, rate, precision, damping} = JSON.parse(output.join(''));
+  const {method, rate} = JSON.parse(output.join(''));
   usualSetting = `${method}@${rate}`;
-  settingsInText = [usualSetting, precision, damping].join();
   return true;
 }
 
-// The program reads a changed file again and keeps its setting.
+// The program reads a changed file again.
 async function playText() {
-  const text = find('text').value, before = settingsInText;
+  const text = find('text').value;
   if (!await readScene()) return;
-  if (!playing?.module || settingsInText !== before) return play();
+  if (!playing?.module) return play();
   playing.module.FS.writeFile(scenePath(), text);
   keepLink();
 }

@@ -73,6 +73,11 @@ def settings(visit):
     visit.choose("method", "rk4")
     visit.wait_setting("rk4@120", "the choice of the method")
     visit.wait("location.hash === '#jump&setting=rk4@120'", "the link of the setting")
+    visit.play("jump&setting=rk4@120")
+    visit.wait_setting("rk4@120", "the setting of the link")
+    visit.click("copy")
+    visit.wait("find('said').textContent.includes('ink')", "an answer to Copy link")
+    visit.wait("location.hash === '#jump&setting=rk4@120'", "the copied link")
 
 
 def loop_keys(visit):
@@ -179,7 +184,7 @@ def editor(visit):
     visit.type(text.replace("9.0", "7.5").replace("rate = 60", "rate = 90"))
     visit.wait_setting("semi_implicit_euler@90", "the rate of the text")
     visit.expect(visit.text("mistake") == "", f"a mistake in a right text: {visit.text('mistake')}")
-    visit.wait("location.hash.startsWith('#deflated=')", "the link of the text")
+    visit.wait("/^#deflated=[^&]+$/.test(location.hash)", "the link of the text")
     visit.choose("method", "rk4")
     visit.wait("location.hash.endsWith('&setting=rk4@90')", "the setting in the link")
     return visit.browser.value("[location.hash.slice(1), find('text').value]")
