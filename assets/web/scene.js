@@ -57,14 +57,7 @@ async function measure(args) {
 }
 
 for (const button of document.querySelectorAll('[data-command]'))
-  button.addEventListener('click', () => {
-    const {command: name} = button.dataset, args = ['oiler', name, scenePath()];
-    if (name === 'advise') {
-      if (!find('tolerance').reportValidity()) return;
-      args.push('--position-error', find('tolerance').value);
-    }
-    measure(args);
-  });
+  button.addEventListener('click', () => measure(['oiler', button.dataset.command, scenePath()]));
 find('cancel').addEventListener('click', () => measuring.cancel());
 
 // Compares the state hash after 600 steps with that of the native program.

@@ -148,6 +148,7 @@ TEST(HandleSlots, KnowWhatIsGone) {
 TEST(HandleSlots, OfACopyGiveHandlesOfTheirOwn) {
     HandleSlots slots;
     const auto first = slots.take<Handle>();
+    for (int i = 0; i < 3; ++i) (void)slots.take<Handle>();
     HandleSlots copy = slots;
     slots.release(first.slot);
     EXPECT_TRUE(copy.holds(first.slot, first.generation));

@@ -122,7 +122,10 @@ std::string path_of(int descriptor) { return fmt::format("/proc/self/fd/{}", des
 
 int open_without_name(const fs::path& folder) {
     const int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-    if (descriptor < 0 || access(path_of(descriptor).c_str(), F_OK) == 0) return descriptor;
+    struct stat made = {};
+    const bool has_no_name = descriptor >= 0 && fstat(descriptor, &made) == 0 && made.st_nlink == 0;
+    if (descriptor < 0 || (has_no_name && access(path_of(descriptor).c_str(), F_OK) == 0))
+        return descriptor;
     close(descriptor);
     return -1;
 }

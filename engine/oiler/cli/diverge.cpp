@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <future>
 #include <span>
+#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/compare/runs/divergence.hpp"
 #include "oiler/compare/runs/state_log.hpp"
+#include "oiler/core/beside.hpp"
 #include "oiler/core/floating_point.hpp"
 
 namespace oiler::cli {
@@ -229,7 +231,8 @@ Json to_json(const DivergeResult& result) {
 
 /// Reads both files at once, if the machine gives another thread: a large trace takes seconds.
 DivergeResult read_traces(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::future<StateLog> log_b = std::async(read_trace, b);
+    std::jthread thread;
+    std::future<StateLog> log_b = call_beside(thread, [&b] { return read_trace(b); });
     StateLog log_a = read_trace(a);
     return {std::move(log_a), log_b.get(), {}};
 }

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "oiler/core/beside.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/length_text.hpp"
 #include "oiler/overlay/ghosts.hpp"
@@ -70,7 +71,7 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
                      : run.other_play_from ? "other events"
                                            : error.text(measured.pixel),
             .grade = colour_of(run.is_sound() ? measured.grade_of(run) : Grade::bad),
-            .cost = cost < least_cost ? "< 10 µs" : time_text(cost),
+            .cost = cost < least_cost() ? "< " + least_cost_text() : time_text(cost),
             .forces = std::isfinite(times) && times > 0 ? fmt::format("×{:.2g}", times) : ""};
 }
 
@@ -114,7 +115,8 @@ void GameInspector::find_stiffest(bool waits) {
         world.body_count() <= most_bodies) {
         next_stiffest_ = now + period;
         found_for_ = stepping;
-        finding_ = std::async(
+        finding_ = call_beside(
+            thread_,
             [this, stepping, suspects = StiffestFinder::suspects_of(world.bodies(), stepping)] {
                 return finder_.find(suspects, stepping);
             });

@@ -5,6 +5,7 @@
 #include <future>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "oiler/game/game.hpp"
@@ -76,6 +77,7 @@ private:
     MotionOverlay motion_;
     FrameCosts costs_;
     std::vector<const Method*> methods_;  ///< that can step the bodies; empty: not yet listed
+    std::jthread thread_;                 ///< of finding_
 };
 
 }  // namespace oiler

@@ -64,7 +64,18 @@ double ns_of_frame(World& world, std::int64_t steps) {
     return 1e9 * std::max(0.0, seconds_since(begin) - clock_time());
 }
 
+/// Costs that a coarse clock cannot show are not told.
+void require_fine_clock() {
+    constexpr double coarsest = 10e-6;
+    if (clock_step() > coarsest)
+        fail(Exit::usage,
+             "the clock moves in steps of {:.0f} µs, too coarse for the cost of a frame; run this "
+             "outside a browser",
+             1e6 * clock_step());
+}
+
 FrameMeasure timed() {
+    require_fine_clock();
     return [between = FrameWork()](World& world, std::int64_t steps) mutable {
         between.run();
         return ns_of_frame(world, steps);
