@@ -183,9 +183,9 @@ void add_notice(Picture& overlay, const OverlayArea& area, const Notice& notice)
     add(notice.heading, 1.3F * size, theme.ink);
     add(notice.text, size, theme.ink);
     add(notice.remedy, size, theme.faint);
-    constexpr float line_height = 1.4F;
+    constexpr float leading = 1.4F;
     float height = 0;
-    for (const Line& line : lines) height += line_height * line.size;
+    for (const Line& line : lines) height += leading * line.size;
     add_sheet(overlay, {canvas_width / 2, canvas_height / 2},
               {area.high.x - area.low.x, height + 1.6F * size},
               palette::faded(theme.paper, opacity));
@@ -195,7 +195,7 @@ void add_notice(Picture& overlay, const OverlayArea& area, const Notice& notice)
     for (Line& line : lines) {
         add_label(overlay, {canvas_width / 2, y - line.size}, std::move(line.text), line.size,
                   line.colour, Align::centre);
-        y -= line_height * line.size;
+        y -= leading * line.size;
     }
 }
 

@@ -146,7 +146,7 @@ void Search::add_candidate(const Method& method, Precision precision,
                            std::optional<Damping> damping) {
     // A short step is stable. Impacts and landings of a frame are in its first step.
     constexpr std::int64_t high_rate = 1 << 16;
-    constexpr std::int64_t frames_per_second = 60;
+    constexpr std::int64_t fps = 60;
     constexpr double expensive = 2e5;  // ns
     Candidate candidate{.method = &method,
                         .precision = precision,
@@ -162,7 +162,7 @@ void Search::add_candidate(const Method& method, Precision precision,
     const double further = each + (each - single) / static_cast<double>(many - 1);
     // Another program may have disturbed either.
     candidate.further = std::clamp(further, each / 2, std::max(each / 2, single));
-    const double of_frame = cost(frames_per_second, 1);
+    const double of_frame = cost(fps, 1);
     candidate.first = std::isnan(of_frame) ? single : of_frame;
     candidates_.push_back(candidate);
 }

@@ -120,20 +120,20 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
 }
 
 Json to_json(const Rates& rates) {
-    Json quantities = Json::array();
+    Json measured = Json::array();
     for (const RatesQuantity& quantity : rates.quantities) {
         Json lines = Json::array();
         for (const RatesLine& line : quantity.lines)
             lines.push_back({{"method", line.method->name},
                              {"values", line.values},
                              {"spread_percent", line.spread_percent}});
-        quantities.push_back({{"name", quantity.name},
-                              {"unit", quantity.unit},
-                              {"body", rates.body},
-                              {"truth", quantity.truth},
-                              {"methods", std::move(lines)}});
+        measured.push_back({{"name", quantity.name},
+                            {"unit", quantity.unit},
+                            {"body", rates.body},
+                            {"truth", quantity.truth},
+                            {"methods", std::move(lines)}});
     }
-    return {{"rates", rates.rates}, {"quantities", std::move(quantities)}};
+    return {{"rates", rates.rates}, {"quantities", std::move(measured)}};
 }
 
 std::size_t most_oscillating_row(const Reference& reference) {

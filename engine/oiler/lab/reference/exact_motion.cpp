@@ -248,10 +248,10 @@ public:
     }
 
     void write(std::int64_t tick, std::span<State3> states) {
-        if (const std::int64_t block = tick / length_; block != block_) {
-            block_ = block;
+        if (const std::int64_t next = tick / length_; next != block_) {
+            block_ = next;
             starts_.resize(states.size());
-            motions_.all_at(static_cast<Real>(block * length_) / rate_, starts_);
+            motions_.all_at(static_cast<Real>(next * length_) / rate_, starts_);
         }
         const auto first =
             static_cast<std::size_t>(tick % length_) * motions_.first_of_group_.size();

@@ -74,12 +74,12 @@ std::vector<double> probe_times(double until, double fastest, std::size_t bodies
     constexpr double most_states = 2e6;
     const auto count = static_cast<std::size_t>(
         std::clamp(most_states / static_cast<double>(bodies + 1), 64.0, 2000.0));
-    constexpr double golden = 0.6180339887498949;
+    constexpr double golden_ratio = 0.6180339887498949;
     const double first = std::min(until, 0.1 / std::max(fastest, 1 / until));
     std::vector<double> times{0, until};
     for (std::size_t i = 0; i < count / 2; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(count / 2);
-        const double offset = std::fmod(static_cast<double>(i) * golden, 1.0);
+        const double offset = std::fmod(static_cast<double>(i) * golden_ratio, 1.0);
         times.push_back(first * std::pow(until / first, share));
         times.push_back(until * (share + offset / static_cast<double>(count / 2)));
     }
