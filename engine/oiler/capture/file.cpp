@@ -327,7 +327,10 @@ void File::publish() {
 void File::require_own_part() {
     struct stat own = {};
     struct stat named = {};
-    if (fstat(descriptor_, &own) != 0) fail_write(errno);
+    if (fstat(descriptor_, &own) != 0) {
+        if (errno == ENOENT) return;  // emscripten looks for the old name; no other run is there
+        fail_write(errno);
+    }
     if (lstat(temporary_.c_str(), &named) != 0 && errno != ENOENT) fail_write(errno);
     if (own.st_dev == named.st_dev && own.st_ino == named.st_ino) return;
     fail(Exit::io, "cannot write {}: {} was replaced or removed meanwhile; choose another path",
