@@ -35,5 +35,7 @@ struct Median {
 
 /// The step in which the clock moves, s: far below 1 µs, but up to 100 µs in a page.
 [[nodiscard]] double clock_step();
+/// Whether the clock shows what a frame of a game costs.
+[[nodiscard]] inline bool shows_costs() { return clock_step() <= 10e-6; }
 
 }  // namespace oiler

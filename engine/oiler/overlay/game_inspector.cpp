@@ -11,6 +11,7 @@
 #include "oiler/core/beside.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/length_text.hpp"
+#include "oiler/core/timing.hpp"
 #include "oiler/overlay/ghosts.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -71,7 +72,9 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
                      : run.other_play_from ? "other events"
                                            : error.text(measured.pixel),
             .grade = colour_of(run.is_sound() ? measured.grade_of(run) : Grade::bad),
-            .cost = cost < least_cost() ? "< " + least_cost_text() : time_text(cost),
+            .cost = !shows_costs()      ? ""
+                    : cost < least_cost ? "< 10 µs"
+                                        : time_text(cost),
             .forces = std::isfinite(times) && times > 0 ? fmt::format("×{:.2g}", times) : ""};
 }
 

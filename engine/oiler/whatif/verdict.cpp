@@ -38,7 +38,7 @@ const WhatIfRun* best(const WhatIf& measured) {
 }
 
 bool is_cheaper(const WhatIfRun& a, const WhatIfRun& b) {
-    const bool certain = std::max(cost(a), cost(b)) >= least_cost();
+    const bool certain = shows_costs() && std::max(cost(a), cost(b)) >= least_cost;
     return certain ? cost(a) < cost(b) : a.evaluations < b.evaluations;
 }
 
@@ -52,15 +52,16 @@ const WhatIfRun* cure(const WhatIf& measured) {
     return cheapest ? cheapest : best(measured);
 }
 
+/// ", below 10 µs a frame"; empty if it is unknown.
 std::string price_text(const WhatIfRun& run, const WhatIf& measured) {
+    if (!shows_costs()) return "";
     const double played = cost(measured.runs.front());
-    const std::string below = "below " + least_cost_text() + " a frame";
-    if (std::max(cost(run), played) < least_cost()) return below;
+    if (std::max(cost(run), played) < least_cost) return ", below 10 µs a frame";
     const double more = cost(run) - played;
-    if (std::abs(more) < std::max(least_cost(), 0.2 * played)) return "for about the same time";
-    if (more > 0) return fmt::format("+{:.0f} µs a frame", more / 1000);
-    if (cost(run) < least_cost()) return below;
-    return fmt::format("{:.0f} instead of {:.0f} µs a frame", cost(run) / 1000, played / 1000);
+    if (std::abs(more) < std::max(least_cost, 0.2 * played)) return ", for about the same time";
+    if (more > 0) return fmt::format(", +{:.0f} µs a frame", more / 1000);
+    if (cost(run) < least_cost) return ", below 10 µs a frame";
+    return fmt::format(", {:.0f} instead of {:.0f} µs a frame", cost(run) / 1000, played / 1000);
 }
 
 std::string error_text(const WhatIfRun& run, const WhatIf& measured) {
@@ -77,7 +78,7 @@ std::string cure_text(const WhatIf& measured) {
     const WhatIfRun* const run = cure(measured);
     if (!run) return "";
     const WhatIfRun& played = measured.runs.front();
-    return fmt::format(" {}: {}, {}.", difference_text(run->stepping, played.stepping),
+    return fmt::format(" {}: {}{}.", difference_text(run->stepping, played.stepping),
                        error_text(*run, measured), price_text(*run, measured));
 }
 
@@ -200,9 +201,5 @@ Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before
                 reading_text(measured, *reading) + cure_text(measured) + end};
     return {now(grade), distance_text(measured, begin, name_of) + end};
 }
-
-double least_cost() { return std::max(10'000.0, 1e9 * clock_step()); }
-
-std::string least_cost_text() { return fmt::format("{:.0f} µs", least_cost() / 1000); }
 
 }  // namespace oiler

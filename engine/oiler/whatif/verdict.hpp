@@ -25,7 +25,7 @@ struct Verdict {
 ///
 /// A reading in m is wrong if its error exceeds a pixel, in another unit if it exceeds 1 %.
 /// Readings that changed since `before` are not judged: they may be a step late, which is no error.
-/// Only certain errors are named, see KnownError. Prices below least_cost() are not compared, and
+/// Only certain errors are named, see KnownError. Prices below 10 µs a frame are not compared, and
 /// none is negative.
 ///
 /// The grade is that of the present moment: it is unknown where the true motion is known until an
@@ -34,10 +34,7 @@ struct Verdict {
                                     double begin,
                                     const std::function<std::string(Entity)>& name_of);
 
-/// The least time that can be measured reliably beside a game, ns a frame: 10 µs, more where the
-/// clock is coarse.
-[[nodiscard]] double least_cost();
-/// "10 µs"
-[[nodiscard]] std::string least_cost_text();
+/// The least time that can be measured reliably beside a game, ns a frame.
+inline constexpr double least_cost = 10'000;
 
 }  // namespace oiler
