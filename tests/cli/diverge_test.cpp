@@ -226,7 +226,8 @@ void expect_first_difference_of_orbits(const std::string& gm, const std::string&
     EXPECT_GE(value.at("ulps"), 1);
     const Lines names = split(a[0], ',');
     const auto column = static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), value.at("field")) - names.begin());
+        std::find(names.begin(), names.end(), value.at("field").get<std::string>()) -
+        names.begin());
     ASSERT_LT(column, names.size());
     const std::string number_a = split(a[tick + 1], ',')[column];
     const std::string number_b = split(b[tick + 1], ',')[column];

@@ -12,7 +12,7 @@ namespace {
 TEST(AddText, CanBeReadOnTheBackground) {
     for (const Colour background : {palette::paper, palette::black, palette::pale}) {
         Picture picture{.background = background};
-        const Label& label = add_text(picture, {3, 4}, "60 Hz", 9, palette::orange, Align::right);
+        const Label label = add_text(picture, {3, 4}, "60 Hz", 9, palette::orange, Align::right);
         EXPECT_GE(contrast(label.colour, background), 4.5);
         EXPECT_EQ(label.at, (Point{3, 4}));
         EXPECT_EQ(label.text, "60 Hz");

@@ -363,7 +363,7 @@ TEST(Plot, ListsItsNamesBesideTheBoxFromTheTop) {
     ASSERT_EQ(picture.discs.size(), 24U);
     float above = plot.box.high.y + 4;
     for (std::size_t i = 0; i < 12; ++i) {
-        const Label& name = find(picture, "curve " + std::to_string(i));
+        const Label name = find(picture, "curve " + std::to_string(i));
         EXPECT_EQ(name.align, Align::left);
         EXPECT_EQ(name.at.x, plot.box.high.x + 44);
         EXPECT_GT(name.at.y, plot.box.low.y - 1);
@@ -414,7 +414,7 @@ TEST(Plot, WritesNotesBelowTheNamesBesideTheBox) {
     const Picture picture = drawn(plot);
     float above = plot.box.high.y;
     for (const char* line : {"one", "two", "first", "second"}) {
-        const Label& label = find(picture, line);
+        const Label label = find(picture, line);
         EXPECT_LE(label.at.y + label.size, above + 3) << line;
         above = label.at.y;
     }

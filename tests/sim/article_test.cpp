@@ -80,7 +80,7 @@ TEST(Article, TheFirstTableMatches) {
     ASSERT_EQ(rows.size(), 11U);
     ASSERT_EQ(table.size(), rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
-        EXPECT_EQ(print("t=%g: position = %g velocity = %g", rows[i]), table[i]);
+        EXPECT_EQ(print("t=%g: position = %g velocity = %g", rows[i]), table[i].get<std::string>());
 }
 
 TEST(Article, TheSecondTableMatches) {
@@ -89,7 +89,8 @@ TEST(Article, TheSecondTableMatches) {
     ASSERT_EQ(rows.size(), 1001U);
     ASSERT_EQ(table.size(), 11U);
     for (std::size_t i = 0; i < table.size(); ++i)
-        EXPECT_EQ(print(second_format, rows[rows.size() - table.size() + i]), table[i]);
+        EXPECT_EQ(print(second_format, rows[rows.size() - table.size() + i]),
+                  table[i].get<std::string>());
 }
 
 // The eleven printed rows do not show whether a compiler fused; the other rows do.

@@ -249,7 +249,7 @@ TEST(Ledger, ReportsDivergenceWithoutAForce) {
                   400);
     EXPECT_FALSE(ledger.diverged);
     EXPECT_EQ(ledger.steps, 400);
-    const LedgerPass& dragged = pass_of(ledger, "linear_drag");
+    const LedgerPass dragged = pass_of(ledger, "linear_drag");
     ASSERT_TRUE(dragged.diverged);
     EXPECT_TRUE(holds(*dragged.diverged, "step"));
     EXPECT_TRUE(std::isnan(dragged.changes_position));

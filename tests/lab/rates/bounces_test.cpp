@@ -104,7 +104,7 @@ TEST(RatesOfABounce, ThatIsNotOverHasNoHeight) {
 TEST(RatesOfAnImpact, HaveItsTime) {
     for (const double restitution : {0.0, 0.5}) {
         const Rates rates = rates_of(ball_for(2, restitution), {20, 60}, {"exact"});
-        const RatesQuantity& impact = quantity_of(rates, "time of the first impact");
+        const RatesQuantity impact = quantity_of(rates, "time of the first impact");
         EXPECT_NEAR(impact.truth, fall, 1e-12);
         EXPECT_NEAR(impact.lines[0].values[0], fall, 1e-9);
         EXPECT_EQ(find(rates, "height of bounce") == nullptr, restitution == 0);
@@ -117,7 +117,7 @@ TEST(RatesOfAnImpact, HaveItsTime) {
 TEST(RatesOfABounce, OfARunThatRestsHaveTheTime) {
     for (const double restitution : {0.01, 0.02, 0.03}) {
         const Rates rates = rates_of(ball_for(2, restitution), {20, 30, 50, 60, 144}, {"exact"});
-        const RatesQuantity& rest = quantity_of(rates, "time at which");
+        const RatesQuantity rest = quantity_of(rates, "time at which");
         EXPECT_NEAR(rest.truth, std::sqrt(2 * 0.99 * dropped / g), 1e-9);
         // The bounces in that step are lower than 2 mm: 0.5 % of the line.
         EXPECT_NEAR(rest.lines[0].values[0], 0.4 + 0.05 * 0.95, 0.005 * 0.05) << restitution;

@@ -252,7 +252,7 @@ TEST(RatesOfAnOscillation, OfAMethodThatCannotStepItAreUnknown) {
         "[scene]\naxes = 2\nrate = 100\nduration = 20.0\n[[attractor]]\nposition = [0.0, 0.0]\n"
         "gm = 1.0\n[[body]]\nposition = [1.0, 0.0]\nvelocity = [0.0, 1.0]\n",
         {100}, {"exact", "rk4"});
-    const RatesQuantity& period = quantity_of(rates, "period");
+    const RatesQuantity period = quantity_of(rates, "period");
     // The orbital period is 2π s.
     EXPECT_NEAR(period.truth, 2 * std::numbers::pi, 1e-6);
     EXPECT_TRUE(std::isnan(period.lines[0].values[0]));
