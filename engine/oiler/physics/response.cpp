@@ -61,7 +61,7 @@ struct Double {
 
 /// reach/t, sway/t² and decay as functions of c·t and k·t².
 template <class T>
-struct Shape {
+struct ScaledResponse {
     Double<T> reach;
     Double<T> sway;
     Double<T> decay;
@@ -113,7 +113,7 @@ private:
 
 /// The shape for ct and √(kt²) ≤ 1/2. Terms below `coarse` have no more than the digits of T.
 template <class T>
-Shape<T> taylor(Double<T> ct, Double<T> kt2, T coarse) {
+ScaledResponse<T> taylor(Double<T> ct, Double<T> kt2, T coarse) {
     Terms<Double<T>, T> terms{.ct = ct, .kt2 = kt2, .u = {1}, .next = -ct};
     terms.sum(coarse);
     Terms<T, T> rest{ct.high, kt2.high, terms.u.high, terms.next.high, terms.n};
@@ -131,7 +131,7 @@ Shape<T> taylor(Double<T> ct, Double<T> kt2, T coarse) {
 /// The shape over twice the time. The second half starts from u = v·reach + a·sway, where the
 /// acceleration is a − k·u.
 template <class T>
-Shape<T> doubled(const Shape<T>& s, Double<T> kt2) {
+ScaledResponse<T> doubled(const ScaledResponse<T>& s, Double<T> kt2) {
     const Double<T> one{1};
     const Double<T> left = one - kt2 * s.sway;
     return {(s.reach * (s.decay + left)).times(T(0.5)),
@@ -153,7 +153,8 @@ Response<T> respond(T k, T c, T t) {
     }
     // Doublings double errors.
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
-    Shape<T> shape = taylor(ct, kt2, doublings == 0 ? T(0x1p-40L) : epsilon * epsilon / 16);
+    ScaledResponse<T> shape =
+        taylor(ct, kt2, doublings == 0 ? T(0x1p-40L) : epsilon * epsilon / 16);
     for (int i = 0; i < doublings; ++i) {
         shape = doubled(shape, kt2);
         kt2 = kt2.times(T(4));
