@@ -85,6 +85,8 @@ TEST_F(Sdl2Events, OfTheMouseReachTheGameUnlessItIsTheLoops) {
     EXPECT_EQ(game.presses(Mouse::left), 1);
     EXPECT_TRUE(game.pointer());
     EXPECT_EQ(queue_.take({}).releases(Mouse::left), 1) << "a button does not stay down";
+    events_.handle(button(true), {600, 720}, {queue_, loop_});
+    EXPECT_FALSE(queue_.take({}).held(Mouse::left)) << "x = 640 is beside the game's part";
 }
 
 TEST_F(Sdl2Events, AreKeysByTheirPlace) {

@@ -14,8 +14,6 @@ bool edits_text(Button key) {
     return std::ranges::find(keys, key) != std::end(keys);
 }
 
-}  // namespace
-
 Point canvas_point(int x, int y, Size part) {
     const auto width = static_cast<float>(part.width);
     const auto height = static_cast<float>(part.height);
@@ -23,6 +21,8 @@ Point canvas_point(int x, int y, Size part) {
     return {canvas_width / 2 + (static_cast<float>(x) + 0.5F - width / 2) / scale,
             canvas_height / 2 - (static_cast<float>(y) + 0.5F - height / 2) / scale};
 }
+
+}  // namespace
 
 void Receivers::set_key(Button key, bool down, bool enters_text) const {
     loop.set(key, down);

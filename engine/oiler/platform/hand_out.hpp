@@ -7,10 +7,6 @@
 
 namespace oiler {
 
-/// The place of the mouse on the canvas of a game's part of a window, both in the units of the
-/// mouse.
-[[nodiscard]] Point canvas_point(int x, int y, Size part);
-
 /// The input of a window: its game, and the loop, which sees all of it.
 struct Receivers {
     InputQueue& game;
@@ -19,7 +15,8 @@ struct Receivers {
 
     /// `enters_text`: keys enter text, except those that edit it.
     void set_key(Button key, bool down, bool enters_text) const;
-    /// A move, or with a button a press or a release. `part` is the game's part.
+    /// A move, or with a button a press or a release. Place and `part`, the game's part, are in the
+    /// units of the mouse.
     void move_mouse(int x, int y, Size part, std::optional<Button> button = {},
                     bool down = false) const;
     void turn_wheel(int notches) const;
