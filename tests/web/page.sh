@@ -7,15 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 root=$(realpath -m "$1")
 
-# inside COMMANDS: runs them in ROOT, where this repository has the same path.
-inside() {
-    mkdir -p "$root$PWD"
-    unshare --mount bash -euc '
-        mount -t proc proc "$0/proc"
-        mount --rbind /dev "$0/dev"
-        mount --bind "$PWD" "$0$PWD"
-        exec chroot "$0" sh -euc "cd \"$PWD\"; $1"' "$root" "$1"
-}
+. tests/support/chroot.sh
 
 [ -e "$root/usr/bin/apt-get" ] || debootstrap --variant=minbase trixie "$root"
 mkdir -p build-web
