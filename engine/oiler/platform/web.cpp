@@ -29,12 +29,7 @@ EM_JS(char*, oiler_web_wish, (), {
     const wish = Module.takeWish?.();
     return wish ? stringToNewUTF8(wish) : 0;
 });
-EM_JS(char*, oiler_web_file, (), {
-    const file = Module.takeFile?.();
-    return file ? stringToNewUTF8(file) : 0;
-});
 EM_JS(bool, oiler_web_closes, (), { return Module.closes === true; });
-EM_JS(void, oiler_web_takes_text, (bool on), { Module.onTextInput?.(on); });
 EM_JS(double, oiler_web_pixels, (), { return window.devicePixelRatio || 1; });
 // clang-format on
 EM_JS_DEPS(oiler_web, "$UTF8ToString,$stringToNewUTF8");
@@ -45,13 +40,6 @@ namespace {
 constexpr const char* canvas = "#canvas";
 constexpr double pixels_per_notch = 100;  // of a wheel
 constexpr double pinch_per_notch = 40;
-
-std::optional<std::string> taken(char* text) {
-    if (text == nullptr) return std::nullopt;
-    std::string copy(text);
-    std::free(text);
-    return copy;
-}
 
 /// Pixels per CSS pixel of a canvas of that width. A phone's canvas gets fewer than its screen has,
 /// so that texts, whose least size is in pixels, can be read.
@@ -289,8 +277,14 @@ public:
         if (is_lost_) return State::lost;
         return oiler_web_closes() ? State::closed : State::open;
     }
-    std::optional<std::string> take_dropped() override { return taken(oiler_web_file()); }
-    std::optional<std::string> take_wish() override { return taken(oiler_web_wish()); }
+    std::optional<std::string> take_dropped() override { return std::nullopt; }  // the page has it
+    std::optional<std::string> take_wish() override {
+        char* const text = oiler_web_wish();
+        if (text == nullptr) return std::nullopt;
+        std::string wish(text);
+        std::free(text);
+        return wish;
+    }
     void set_title(const std::string& title) override { oiler_web_title(title.c_str()); }
     void tell(const Told& told) override {
         if (std::exchange(told_, told) != told)
@@ -303,10 +297,7 @@ public:
             emscripten_exit_fullscreen();
     }
     std::string name_on_layout(Key) const override { return ""; }
-    void take_text(bool on) override {
-        events_.take_text(on);
-        oiler_web_takes_text(on);
-    }
+    void take_text(bool on) override { events_.take_text(on); }
     void present() override {}  // the browser shows a frame when its function returns
 
 private:
