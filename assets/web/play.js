@@ -30,10 +30,14 @@ const settingOptions = text => {
   const [method, rate] = text.split('@');
   return ['--method', method, '--rate', rate];
 };
+// A game may refuse its own setting as an option.
+const chosenOptions = () => setting && setting !== usualSetting ? settingOptions(setting) : [];
 
 // One game after the other.
 let queue = Promise.resolve();
-function play(options = [], files = {}) {
+let plays = 0;
+function play(options = chosenOptions(), files = {}) {
+  ++plays;
   queue = queue.then(end).then(() => start(options, files));
   return queue;
 }
@@ -58,7 +62,7 @@ async function start(options, files) {
     shown.module = null;
     isOver = true;
     resolve();
-    if (isLost) play(options, files);
+    if (isLost) play(files[recordingFile] ? options : chosenOptions(), files);
     else if (reason) complain(reason);
     else say(remarks.find(line => line.includes('replay')) ?? 'The game has ended.');
   };
@@ -117,6 +121,7 @@ for (const button of document.querySelectorAll('[data-code]')) {
 find('restart').addEventListener('click', () => { if (!playing?.module) play(); });
 
 function showSetting() {
+  if (setting === '') return;
   const [method, rate] = setting.split('@');
   if (![...find('method').options].some(option => option.value === method))
     find('method').append(new Option(method));
@@ -132,7 +137,10 @@ async function listMethods() {
 
 for (const id of ['rate', 'method'])
   find(id).addEventListener('change', () => {
-    if (find('rate').reportValidity()) wish = `${find('method').value}@${find('rate').value}`;
+    if (!find('rate').reportValidity()) return;
+    const wanted = `${find('method').value}@${find('rate').value}`;
+    if (!playing?.module) return play(settingOptions(wanted));
+    wish = wanted;
     setTimeout(showSetting, 1000);  // a game may keep its setting
   });
 
@@ -142,10 +150,11 @@ function fixSetting(isFixed) {
 
 // Link
 
+const isOfList = text => game.file && (game.text === undefined || text === game.text);
 async function link() {
   const text = find('text').value;
   const what = !isScene() ? game.name
-    : game.file && text === game.text ? `scene=${game.file}` : await linkOfText(text);
+    : isOfList(text) ? `scene=${game.file}` : await linkOfText(text);
   return `#${what}${setting === usualSetting ? '' : `&setting=${setting}`}`;
 }
 
@@ -170,17 +179,20 @@ find('copy').addEventListener('click', async () => {
 
 find('record').addEventListener('click', async () => {
   if (playing?.isRecording) return end();
-  await play([...settingOptions(setting), '--record', recordingFile]);
-  const recorded = playing, {module} = recorded;
+  const {name: recordedGame} = game;
+  find('record').disabled = true;
+  await play([...chosenOptions(), '--record', recordingFile]);
+  find('record').disabled = false;
+  const recorded = playing, {module} = recorded, recordedPlay = plays;
   if (!module) return;
   setRecording(recorded, true);
   await recorded.ended;
   setRecording(recorded, false);
   if (!module.FS.analyzePath(recordingFile).exists) return;  // the game told why
-  const name = `${game.name}.rec`;
+  const name = `${recordedGame}.rec`;
   save(module.FS.readFile(recordingFile), name);
-  await play();
-  say(`${name} is saved: open it here, or give it to ${game.name} --replay.`);
+  if (plays === recordedPlay) await play();
+  say(`${name} is saved: open it here, or give it to ${recordedGame} --replay.`);
 });
 
 function setRecording(of, isRecording) {
@@ -214,7 +226,10 @@ async function replay(bytes, header) {
   }
   if (!isDemo(name))
     return complain('This recording is of a game that is not here: replay it with its program.');
-  if (name !== game.name) show({name});
+  if (name !== game.name) {
+    show({name});
+    usualSetting = '';  // unknown: links name the setting
+  }
   fixSetting(true);
   await play(['--replay', recordingFile], {[recordingFile]: bytes});
   await playing.ended;
@@ -258,18 +273,25 @@ async function begin() {
   if (link.text === undefined && !isDemo(link.name) && !isListed(link.file))
     return complain(`There is no such demo or scene. ${first}`);
   show(linkedGame);
-  if (linked) usualSetting = '';
+  listMethods();
   find('text').value = game.text ?? '';
   if (link.text !== undefined && !await readScene()) return;
+  if (linked) usualSetting = '';
   await play(linked ? settingOptions(linked) : []);
+  if (!playing.module && linked) {
+    const reason = find('problem').textContent;
+    usualSetting = null;
+    await play([]);
+    complain(reason);
+  }
   if (!playing.module) return;
   if (game.file) {
     find('text').value = playing.module.FS.readFile(scenePath(), {encoding: 'utf8'});
     game.text = find('text').value;
     readScene();
   }
-  listMethods();
 }
 
 addEventListener('hashchange', () => location.reload());
+addEventListener('beforeunload', event => { if (playing?.isRecording) event.preventDefault(); });
 addEventListener('DOMContentLoaded', begin);

@@ -29,14 +29,15 @@ async function readScene() {
 // The program reads a changed file again.
 async function playText() {
   const text = find('text').value;
+  keepLink();
   if (!await readScene()) return;
   if (!playing?.module) return play();
   playing.module.FS.writeFile(scenePath(), text);
-  keepLink();
 }
 
 find('text').addEventListener('input', () => {
   clearTimeout(typing);
+  showMistake('');
   typing = setTimeout(playText, 200);
 });
 

@@ -81,7 +81,7 @@ def settings(visit):
 
 
 def loop_keys(visit):
-    visit.play("bounce")
+    visit.play("spring_damper")
     visit.click("pause")
     visit.wait("find('pause').ariaPressed === 'true'", "the pause")
     still = visit.picture()

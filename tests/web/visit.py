@@ -150,6 +150,8 @@ class Visit:
         self.browser.value("document.activeElement.blur()")
 
     def choose(self, element, value):
+        self.wait(f"[...find('{element}').options].some(one => one.value === '{value}')",
+                  f"the choice of {value}")
         self.browser.value(f"""(() => {{ const e = find('{element}');
             e.value = '{value}'; e.dispatchEvent(new Event('change')); }})()""")
 

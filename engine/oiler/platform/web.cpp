@@ -310,8 +310,10 @@ private:
     void fit() {
         emscripten_get_element_css_size(canvas, &width_, &height_);
         const double pixels = std::min(oiler_web_pixels(), sharpest(width_));
-        const Size size{std::max(1, static_cast<int>(std::lround(width_ * pixels))),
-                        std::max(1, static_cast<int>(std::lround(height_ * pixels)))};
+        // A canvas lower than the line and a picture would leave the picture no height.
+        constexpr long least = 64;
+        const Size size{static_cast<int>(std::max(least, std::lround(width_ * pixels))),
+                        static_cast<int>(std::max(least, std::lround(height_ * pixels)))};
         if (size == size_) return;
         size_ = size;
         emscripten_set_canvas_element_size(canvas, size.width, size.height);
