@@ -4,7 +4,7 @@
 'use strict';
 
 const find = id => document.getElementById(id);
-const recordingFile = '/tmp/recording';
+const recordingFile = 'recording';
 
 let game = {};           // {name} of a demo, {file, text} of a scene of the list, {text} of another
 let playing = null;      // {module, ended, isRecording}; module is null before and after the game
@@ -20,7 +20,7 @@ const say = words => { find('said').textContent = words; };
 const showLine = slowly(find('line'));
 
 const isScene = () => game.name === undefined;
-const scenePath = () => `/tmp/${game.file ?? 'scene.toml'}`;
+const scenePath = () => game.file ?? 'scene.toml';
 const command = () => isScene() ? ['oiler', 'play', scenePath()] : [game.name];
 const sceneFiles = () => isScene() ? {[scenePath()]: find('text').value} : {};
 // The text of a scene of the list is in the program.

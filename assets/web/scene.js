@@ -48,7 +48,8 @@ async function measure(args) {
   find('results').textContent = '';
   find('results').ariaBusy = true;
   find('lab').scrollIntoView({block: 'nearest'});
-  const job = measuring = runOiler(args, sceneFiles(), line => find('results').append(line, '\n'));
+  const job = measuring = runOiler(args, sceneFiles(), line =>
+    find('results').append(line.replace('; --time-limit S ends earlier', ''), '\n'));
   const result = await job.result;
   if (job !== measuring) return result;
   find('busy').hidden = true;
@@ -58,7 +59,11 @@ async function measure(args) {
 }
 
 for (const button of document.querySelectorAll('[data-command]'))
-  button.addEventListener('click', () => measure(['oiler', button.dataset.command, scenePath()]));
+  button.addEventListener('click', () => {
+    const {command: name} = button.dataset;
+    if (name === 'advise' && !find('pixels').reportValidity()) return;
+    measure(['oiler', name, scenePath(), ...name === 'advise' ? ['--pixels', find('pixels').value] : []]);
+  });
 find('cancel').addEventListener('click', () => measuring.cancel());
 
 // Compares the state hash after 600 steps with that of the native program.

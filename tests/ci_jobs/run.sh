@@ -43,7 +43,7 @@ change_game() {
 }
 check_artifacts() {
     local artifact
-    python3 "$here/job.py" "$1" artifacts >"$folder/artifacts"
+    python3 "$here/job.py" "$1" frames artifacts >"$folder/artifacts"
     while read -r artifact; do
         [ -s "$game/$artifact" ] || fail "$1: $artifact is not written"
     done <"$folder/artifacts"
@@ -51,7 +51,7 @@ check_artifacts() {
     [ -s "$game/frames/cannon-differences/index.html" ] || fail "there is no page of differences"
 }
 
-read_variables() { mapfile -t variables < <(python3 "$here/job.py" "$job" variables); }
+read_variables() { mapfile -t variables < <(python3 "$here/job.py" "$job" frames variables); }
 # The job fails and says what to set; then it is set to a repository in which the commit has the tag.
 set_repository() {
     local command
@@ -69,9 +69,9 @@ run_job() {
     game=$(mktemp -d -p "$folder")/cannon
     make_game
     job=$game/$1
-    [ "$(python3 "$here/job.py" "$job" image)" = debian:12 ] || fail "$1: the image is not Debian 12"
-    mapfile -t commands < <(python3 "$here/job.py" "$job" commands)
-    cached=$(python3 "$here/job.py" "$job" cached)
+    [ "$(python3 "$here/job.py" "$job" frames image)" = debian:12 ] || fail "$1: the image is not Debian 12"
+    mapfile -t commands < <(python3 "$here/job.py" "$job" frames commands)
+    cached=$(python3 "$here/job.py" "$job" frames cached)
     compare=${commands[-1]}
     set_repository "$1"
     [ ! -e "$folder/$cached" ] || mv "$folder/$cached" "$game"

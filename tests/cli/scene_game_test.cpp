@@ -16,6 +16,7 @@ namespace oiler::test {
 namespace {
 
 using cli::SceneGame;
+using Watched = SceneGame::Watched;
 
 /// A body without forces in a picture of 10 m, for half a second.
 Scene scene_of(double mass = 1) {
@@ -52,7 +53,7 @@ Settings at(std::int64_t rate) {
 TEST(SceneGame, IsOverAfterItsDurationWhileItIsWatched) {
     const Scene scene = scene_of();
     Hand hand;
-    SceneGame watched(held(scene), at(10), true);
+    SceneGame watched(held(scene), at(10), Watched::among_others);
     EXPECT_EQ(watched.step(0, 4, hand), 4);
     EXPECT_FALSE(watched.is_over());
     EXPECT_EQ(watched.step(4, 2, hand), 2);
@@ -64,7 +65,7 @@ TEST(SceneGame, IsOverAfterItsDurationWhileItIsWatched) {
     EXPECT_EQ(watched.cuts(), 1);
     EXPECT_FALSE(watched.is_over());
     EXPECT_EQ(hand.asked, 7);
-    SceneGame run(held(scene), at(10), false);
+    SceneGame run(held(scene), at(10), Watched::no);
     EXPECT_EQ(run.step(0, 100, hand), 100);
     EXPECT_EQ(run.world().tick(), 100);
     EXPECT_FALSE(run.is_over());
@@ -84,7 +85,7 @@ TEST(SceneGame, BodiesFollowTheMouseOnASpring) {
     for (const double mass : {1.0, 50.0}) {
         Scene scene = scene_of(mass);
         scene.duration = 100;
-        SceneGame game(held(scene), at(10'000), true);
+        SceneGame game(held(scene), at(10'000), Watched::among_others);
         Hand hand;
         hand.plays = drag;
         (void)game.step(0, 1, hand);
@@ -105,7 +106,7 @@ TEST(SceneGame, BodiesFollowTheMouseOnASpring) {
 // 360 canvas units are 10 m.
 TEST(SceneGame, AClickLeavesABodyAlone) {
     const Scene scene = scene_of();
-    SceneGame game(held(scene), at(60), true);
+    SceneGame game(held(scene), at(60), Watched::among_others);
     Hand hand;
     float aside = 0;
     hand.plays = [&](InputQueue& queue, std::int64_t) {
@@ -132,7 +133,7 @@ TEST(SceneGame, ADragIsStableAtAnyRate) {
     for (const std::int64_t rate : {1, 5, 20, 60}) {
         Scene scene = scene_of();
         scene.duration = 1e6;
-        SceneGame game(held(scene), at(rate), true);
+        SceneGame game(held(scene), at(rate), Watched::among_others);
         Hand hand;
         hand.plays = drag;
         double furthest = 0;
@@ -148,7 +149,7 @@ TEST(SceneGame, ADragIsStableAtAnyRate) {
 TEST(SceneGame, InOneAxisABodyFollowsTheMouseAlongIt) {
     const Scene scene =
         parse_scene("[scene]\naxes = 1\nduration = 100.0\n[[body]]\nposition = [0.0]\n", "a.toml");
-    SceneGame game(held(scene), at(60), true);
+    SceneGame game(held(scene), at(60), Watched::among_others);
     Hand hand;
     hand.plays = [](InputQueue& queue, std::int64_t step) {
         queue.point_at(step == 0 ? Hand::canvas(0, 0) : Hand::canvas(1, 2));
@@ -160,7 +161,7 @@ TEST(SceneGame, InOneAxisABodyFollowsTheMouseAlongIt) {
 
 TEST(SceneGame, AMouseThatIsFarAwayDragsNothing) {
     const Scene scene = scene_of();
-    SceneGame game(held(scene), at(10), true);
+    SceneGame game(held(scene), at(10), Watched::among_others);
     Hand hand;
     hand.plays = [](InputQueue& queue, std::int64_t) {
         queue.point_at(Hand::canvas(0.7F, 0));
@@ -174,7 +175,7 @@ TEST(SceneGame, TheMouseZoomsAndMovesThePicture) {
     Scene scene = scene_of();
     scene.duration = 100;
     const auto shared = held(scene);
-    SceneGame game(shared, at(60), true);
+    SceneGame game(shared, at(60), Watched::among_others);
     Hand hand;
     hand.plays = [](InputQueue& queue, std::int64_t step) {
         queue.point_at(Hand::canvas(2, 1));
@@ -203,13 +204,13 @@ TEST(SceneGame, TheMouseZoomsAndMovesThePicture) {
     game.restart();
     EXPECT_FALSE(game.is_over());
     EXPECT_EQ(game.picture().camera, moved);
-    game.assign(SceneGame(shared, at(30), true));
+    game.assign(SceneGame(shared, at(30), Watched::among_others));
     EXPECT_EQ(game.picture().camera, moved) << "with another setting, too";
 }
 
 TEST(SceneGame, BracketsAskForOtherScenesOnce) {
     const Scene scene = scene_of();
-    SceneGame game(held(scene), at(10), true);
+    SceneGame game(held(scene), at(10), Watched::among_others);
     Hand hand;
     hand.plays = [](InputQueue& queue, std::int64_t step) {
         queue.set(Key::right_bracket, step == 0 || step == 2);
@@ -221,7 +222,7 @@ TEST(SceneGame, BracketsAskForOtherScenesOnce) {
     EXPECT_EQ(game.places_to_go(), 1);
     Scene other = scene;
     other.camera.height = 20;
-    game.assign(SceneGame(held(other), at(10), true));
+    game.assign(SceneGame(held(other), at(10), Watched::among_others));
     EXPECT_EQ(game.places_to_go(), 0);
     EXPECT_EQ(game.picture().camera.height, 20) << "another scene has its own camera";
 }
@@ -229,12 +230,12 @@ TEST(SceneGame, BracketsAskForOtherScenesOnce) {
 TEST(SceneGame, ACopyDragsOn) {
     Scene scene = scene_of();
     scene.duration = 100;
-    SceneGame game(held(scene), at(100), true);
+    SceneGame game(held(scene), at(100), Watched::among_others);
     Hand hand;
     hand.plays = drag;
     (void)game.step(0, 10, hand);
     const std::unique_ptr<AnyGame> copy = game.clone();
-    SceneGame assigned(held(scene), at(100), true);
+    SceneGame assigned(held(scene), at(100), Watched::among_others);
     assigned.assign(game);
     Hand other;
     other.queue = hand.queue;
@@ -263,7 +264,7 @@ TEST(SceneGame, TrailsDoNotChangeTheMotion) {
             "[scene]\naxes = 2\nduration = 100.0\n[[body]]\nvelocity = [2.0, 0.0]\n" + view,
             "view.toml");
         Hand hand;
-        SceneGame run(held(scene), at(1000), false);
+        SceneGame run(held(scene), at(1000), Watched::no);
         (void)run.step(0, 50, hand);
         EXPECT_EQ(run.world().tick(), 50);
         return run.state_hash();
@@ -278,8 +279,8 @@ TEST(SceneGame, DrawsTrailsHoweverItIsStepped) {
         "[view]\ntrails = 1.0\n",
         "trails.toml");
     Hand hand;
-    SceneGame run(held(scene), at(10), false);
-    SceneGame watched(held(scene), at(10), true);
+    SceneGame run(held(scene), at(10), Watched::no);
+    SceneGame watched(held(scene), at(10), Watched::among_others);
     (void)run.step(0, 20, hand);
     (void)watched.step(0, 20, hand);
     ASSERT_FALSE(path_of(run).empty());
@@ -318,8 +319,8 @@ protected:
         return {folder / name, read_scene((folder / name).string())};
     }
     static std::unique_ptr<SceneGame> shown_by(const SceneShelf& shelf) {
-        return std::make_unique<SceneGame>(shelf.scene(),
-                                           Settings{.stepping = shelf.scene()->stepping}, true);
+        return std::make_unique<SceneGame>(
+            shelf.scene(), Settings{.stepping = shelf.scene()->stepping}, Watched::among_others);
     }
     /// What the shelf hands out after so many presses of ].
     static std::optional<Shelf::Taken> take(SceneShelf& shelf, int presses) {
@@ -357,6 +358,18 @@ TEST_F(SceneShelfTest, BracketsGoThroughTheFolder) {
         << "five places back in a round of three";
 }
 
+TEST_F(SceneShelfTest, TheBracketsAreNamedWhereThereAreOtherScenes) {
+    EXPECT_TRUE(shelf_of("a.toml").has_neighbours());
+    for (const char* other : {"b.toml", "c.toml"}) fs::remove(folder / other);
+    EXPECT_FALSE(shelf_of("a.toml").has_neighbours());
+    EXPECT_FALSE(SceneShelf("", scene_of()).has_neighbours()) << "a scene of a manifest";
+    const auto hint = [&](Watched watched) {
+        return SceneGame(held(scene_of()), at(10), watched).picture().labels.back().text;
+    };
+    EXPECT_EQ(hint(Watched::alone), "repeats after 0.5 s; drag bodies, R restarts");
+    EXPECT_EQ(hint(Watched::among_others), hint(Watched::alone) + ", [ ] change the scene");
+}
+
 TEST_F(SceneShelfTest, TakesADroppedFileWhereverItIs) {
     SceneShelf shelf = shelf_of("a.toml");
     const Folder other;
@@ -369,8 +382,8 @@ TEST_F(SceneShelfTest, TakesADroppedFileWhereverItIs) {
 TEST_F(SceneShelfTest, ReadsAChangedFileAgainAndKeepsThePlayersSetting) {
     SceneShelf shelf = shelf_of("a.toml");
     const Stepping of_player{.method = &find_method("rk4"), .rate = {500}};
-    const auto game =
-        std::make_unique<SceneGame>(shelf.scene(), Settings{.stepping = of_player}, true);
+    const auto game = std::make_unique<SceneGame>(shelf.scene(), Settings{.stepping = of_player},
+                                                  Watched::among_others);
     write("a.toml", "rate = 10\nduration = 3.0");
     const auto taken = shelf.take(*game, std::nullopt);
     ASSERT_TRUE(taken);

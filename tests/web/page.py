@@ -169,6 +169,26 @@ def page_recordings(visit, count):
         file.unlink()
 
 
+def recording_is_left(visit):
+    """A recording that a dropped one ends is saved under its game's name; the dropped one plays."""
+    file = visit.folder / "other.rec"
+    native(visit.programs, "jump", "--steps", 30, "--record", file)
+    visit.play("hello")
+    visit.browser.value("find('record').click(); find('record').click()")  # the second one too soon
+    visit.wait("playing.isRecording", "a recording")
+    saved = visit.download(lambda: visit.drop_file(file), "hello.rec")
+    visit.wait("find('title').textContent === 'jump'", "the dropped recording")
+    visit.wait("location.hash.startsWith('#jump&setting=')", "the setting in the link")
+    answer = native(visit.programs, "hello", "--replay", saved, "--steps", 100000)
+    visit.expect("the replay equals" in answer.stderr, f"hello.rec: {answer.stderr}")
+
+
+def impossible_setting(visit):
+    visit.open("scene=cloth.toml&setting=exact@60")
+    visit.wait("find('problem').textContent.includes('exact')", "why exact is impossible")
+    visit.wait_picture(has_colours, "the scene at its own setting")
+
+
 def editor(visit):
     visit.play("scene=jump.toml")
     visit.wait("find('text').value", "the text of the scene")
@@ -203,6 +223,11 @@ def lab(visit):
     visit.wait("find('results').ariaBusy === 'false'", "the rates")
     expected = native(visit.programs, "oiler", "rates", SCENES / "jump.toml").stdout
     visit.expect(expected in visit.text("results"), f"other rates: {visit.text('results')}")
+    visit.browser.click("document.querySelector('[data-command=advise]')")
+    visit.wait("find('results').ariaBusy === 'false'", "the advice")
+    cost = re.search(r"error 0\.(69|7) mm as drawn, .* ([\d.]+) µs per simulated second",
+                     visit.text("results"))
+    visit.expect(cost and 0 < float(cost[2]) < 1000, f"other advice: {visit.text('results')}")
     visit.play("scene=pegs.toml")
     visit.wait("find('text').value", "the text of the scene")
     visit.browser.click("document.querySelector('[data-command=rates]')")
@@ -284,6 +309,8 @@ def main():
                 visiting(check)
             visiting(native_recordings, options.recordings)
             visiting(page_recordings, options.recordings)
+            visiting(recording_is_left)
+            visiting(impossible_setting)
             edited = visiting(editor)
             if edited:
                 visiting(link_in_fresh_browser, *edited)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # page.sh ROOT: builds the page with emscripten in ROOT, a Debian 13 that it makes if there is none,
 # compares the state hashes of WebAssembly with those of build-bits, and tests the page in
-# build-web/page in this machine's Chromium against the programs in build. Needs root and debootstrap.
+# build-web/page and that of a new game in this machine's Chromium against the programs in build. Needs
+# root, debootstrap and python3-yaml.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 root=$(realpath -m "$1")
@@ -25,8 +26,18 @@ for kernels in none baseline; do
 done
 tests/web/page.py build-web/page build/bin
 
-rm -rf build-web/mygame
-build/bin/oiler new build-web/mygame
-rm build-web/mygame/local.cmake
-inside '.ci/page build-web/mygame'
-tests/web/page.py build-web/mygame/build-web/page build/bin --game
+# A new game, by its CI jobs.
+rm -rf build-web/oiler.git
+git clone -q --bare . build-web/oiler.git
+for job in '.github/workflows/frames.yml page' '.gitlab-ci.yml pages'; do
+    read -r file name <<<"$job"
+    rm -rf build-web/mygame
+    build/bin/oiler new build-web/mygame
+    rm build-web/mygame/local.cmake
+    part() { tests/ci_jobs/job.py "build-web/mygame/$file" "$name" "$1"; }
+    [ "$(part image)" = debian:13 ]
+    sed -i "s|OILER_REPOSITORY: \"\"|OILER_REPOSITORY: file://$PWD/build-web/oiler.git|" "build-web/mygame/$file"
+    git -C build-web/oiler.git tag -f "$(part variables | sed -n 's/^OILER_TAG=//p')"
+    inside "cd build-web/mygame; export $(part variables | xargs); $(part commands)"
+    tests/web/page.py "build-web/mygame/$(part artifacts)" build/bin --game
+done

@@ -21,11 +21,10 @@ void KeptPace::add(std::chrono::duration<double> work, std::chrono::duration<dou
 
 std::string KeptPace::text() const {
     if (late_ > 0.1)
-        return fmt::format("too slow here: {:.0f} % of its pace. A lower rate or --headless helps",
+        return fmt::format("too slow here: {:.0f} % of its pace. A lower rate helps",
                            100 * (1 - late_));
     if (work_ > 0.05)
-        return fmt::format("{:.0f} frames a second: a smaller window or --headless helps",
-                           1 / work_);
+        return fmt::format("{:.0f} frames a second: a smaller window helps", 1 / work_);
     return {};
 }
 

@@ -101,8 +101,12 @@ struct PlayCommand {
         const bool watched = is_watched(line.options);
         shown->title = shown->shelf->title();
         line.about.title = shown->title;
-        const auto make = [shown, watched](const Settings& settings) {
-            return std::make_unique<SceneGame>(shown->shelf->scene(), settings, watched);
+        using Watched = SceneGame::Watched;
+        const Watched by = !watched                         ? Watched::no
+                           : shown->shelf->has_neighbours() ? Watched::among_others
+                                                            : Watched::alone;
+        const auto make = [shown, by](const Settings& settings) {
+            return std::make_unique<SceneGame>(shown->shelf->scene(), settings, by);
         };
         const auto measure_budget = [shown, options = line.options](double seconds) {
             return check(*shown->shelf->scene(), options, seconds);

@@ -37,7 +37,7 @@ fs::file_time_type written(const fs::path& file) {
 
 }  // namespace
 
-SceneGame::SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, bool watched)
+SceneGame::SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, Watched watched)
     : scene_(std::move(scene)),
       watched_(watched),
       world_(make_world(*scene_, settings)),
@@ -45,7 +45,7 @@ SceneGame::SceneGame(std::shared_ptr<const Scene> scene, const Settings& setting
       camera_(camera_of(*scene_, world_)) {}
 
 std::int64_t SceneGame::step(std::int64_t step, std::int64_t count, InputSource& inputs) {
-    if (watched_)
+    if (is_watched())
         for (std::int64_t taken = 0; taken < count; ++taken) take_step(inputs.next(step + taken));
     else
         take_world_steps(count);
@@ -133,12 +133,12 @@ void SceneGame::assign(const AnyGame& other) {
 
 Picture SceneGame::picture() const {
     Picture picture = draw_scene(*scene_, world_, camera_, trails_);
-    if (watched_)
+    if (is_watched())
         picture.labels.push_back(
             {.at = {8, 6},
              .text =
-                 fmt::format("repeats after {:g} s; drag bodies, R restarts, [ ] change the scene",
-                             scene_->duration),
+                 fmt::format("repeats after {:g} s; drag bodies, R restarts{}", scene_->duration,
+                             watched_ == Watched::among_others ? ", [ ] change the scene" : ""),
              .size = 9,
              .colour = theme_of(picture.background).ink});
     if (drag_ && drag_->pulls)
@@ -187,6 +187,10 @@ std::string SceneShelf::title() const {
     const std::string file = file_.filename().string();
     const std::string name = scene()->title;
     return name.empty() ? file : name + " – " + file;
+}
+
+bool SceneShelf::has_neighbours() const {
+    return !file_.empty() && neighbour(1).filename() != file_.filename();
 }
 
 fs::path SceneShelf::neighbour(int places) const {

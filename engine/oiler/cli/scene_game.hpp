@@ -26,7 +26,10 @@ public:
     static constexpr Action next{"next scene", Key::right_bracket};
     static constexpr Control controls[] = {again, pull, move, previous, next};
 
-    SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, bool watched);
+    /// Who looks: nobody, or a player, who may change to other scenes of the folder.
+    enum class Watched { no, alone, among_others };
+
+    SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, Watched watched);
 
     std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) override;
     void restart() override;
@@ -37,11 +40,11 @@ public:
     }
     void assign(const AnyGame& other) override;
     [[nodiscard]] bool is_over() const override {
-        return watched_ && (ends_ || world_.time() >= scene_->duration);
+        return is_watched() && (ends_ || world_.time() >= scene_->duration);
     }
     /// The number of scenes that the user wants to go forward; negative: back.
     [[nodiscard]] int places_to_go() const { return places_to_go_; }
-    [[nodiscard]] bool takes_input() const override { return watched_; }
+    [[nodiscard]] bool takes_input() const override { return is_watched(); }
     [[nodiscard]] const World& world() const override { return world_; }
     [[nodiscard]] Picture picture() const override;
     [[nodiscard]] std::string name_of(Entity entity) const override {
@@ -61,13 +64,14 @@ private:
         Vec3 to{};  ///< m
     };
 
+    [[nodiscard]] bool is_watched() const { return watched_ != Watched::no; }
     void take_step(const Input& input);
     void take_world_steps(std::int64_t count);
     void look(const Input& input);
     void drag(const Input& input);
 
     std::shared_ptr<const Scene> scene_;
-    bool watched_;
+    Watched watched_;
     World world_;
     SceneTrails trails_;
     Camera camera_;              ///< the user's; assign() keeps it
@@ -90,6 +94,8 @@ public:
         const std::lock_guard lock(mutex_);
         return scene_;
     }
+    /// Whether the scene's folder has another one.
+    [[nodiscard]] bool has_neighbours() const;
     /// The scene's title and its file.
     [[nodiscard]] std::string title() const;
 

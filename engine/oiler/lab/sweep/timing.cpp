@@ -39,6 +39,38 @@ double clock_time() {
     return least;
 }
 
+/// The mean time of work(), s, over as many calls as a coarse clock needs to show it to 5 %.
+/// `unknown` if it returns false.
+template <class Work>
+double mean_seconds(Work work) {
+    constexpr int clock_steps = 20;
+    double passed = 0;
+    std::int64_t calls = 0;
+    for (const Clock::time_point begin = Clock::now(); passed < clock_steps * clock_step();
+         passed = seconds_since(begin), ++calls)
+        if (!work()) return unknown;
+    return passed / static_cast<double>(calls);
+}
+
+/// The time of run(world), s, for a world that is equal to `start`.
+template <class Run>
+double seconds_of(const World& start, Run run) {
+    World world = start;
+    if (shows_costs()) {
+        const Clock::time_point begin = Clock::now();
+        return run(world) ? seconds_since(begin) : unknown;
+    }
+    const double both = mean_seconds([&] {
+        world = start;
+        return run(world);
+    });
+    const double copying = mean_seconds([&] {
+        world = start;
+        return true;
+    });
+    return std::max(0.0, both - copying);
+}
+
 /// The work of a game between two frames: it replaces the fastest cache's content.
 class FrameWork {
 public:
@@ -51,30 +83,37 @@ private:
     std::vector<unsigned char> memory_ = std::vector<unsigned char>(64 * 1024);
 };
 
-/// A game's frame: steps one by one, with a body read after each. Returns ns, `unknown` for a
-/// divergence.
-double ns_of_frame(World& world, std::int64_t steps) {
+/// A game's frame: steps one by one, with a body read after each. Returns false for a divergence.
+bool play_frame(World& world, std::int64_t steps) {
     double seen = 0;
-    const Clock::time_point begin = Clock::now();
     for (std::int64_t step = 0; step < steps; ++step) {
-        if (world.try_step()) return unknown;
+        if (world.try_step()) return false;
         seen += world.position_of_row(0)[0];
     }
     asm volatile("" : : "g"(seen));  // the compiler must not drop the readings
-    return 1e9 * std::max(0.0, seconds_since(begin) - clock_time());
+    return true;
 }
 
-/// Costs that a coarse clock cannot show are not told.
-void require_fine_clock() {
-    if (!shows_costs())
-        fail(Exit::usage,
-             "the clock moves in steps of {:.0f} µs, too coarse for the cost of a frame; run this "
-             "outside a browser",
-             1e6 * clock_step());
+/// Returns ns, `unknown` for a divergence.
+double ns_of_frame(World& world, std::int64_t steps) {
+    const Clock::time_point begin = Clock::now();
+    if (!play_frame(world, steps)) return unknown;
+    return 1e9 * std::max(0.0, seconds_since(begin) - clock_time());
+}
+/// The mean over these steps of a run, ns: what a coarse clock shows. `unknown` for a divergence
+/// and if stopped.
+double mean_ns_of_step(
+    const World& start, std::int64_t steps,
+    const std::function<bool()>& stopped = [] { return false; }) {
+    const double seconds = seconds_of(start, [&](World& world) {
+        for (std::int64_t step = 0; step < steps; ++step)
+            if (stopped() || !play_frame(world, 1)) return false;
+        return true;
+    });
+    return 1e9 * seconds / static_cast<double>(steps);
 }
 
 FrameMeasure timed() {
-    require_fine_clock();
     return [between = FrameWork()](World& world, std::int64_t steps) mutable {
         between.run();
         return ns_of_frame(world, steps);
@@ -87,6 +126,11 @@ double mean_of(const std::vector<double>& values) {
 
 /// The frames of a second that have a step.
 std::int64_t frames_with_steps(const Rate& rate) { return std::min(rate.steps, frames_per_second); }
+
+std::int64_t steps_of(const Scene& scene, const Rate& rate) {
+    const double steps = scene.duration * static_cast<double>(rate.steps);
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(steps));
+}
 
 /// Steps as far as a tick in calls of many steps. Returns false for a divergence and if stopped.
 bool step_to(World& world, std::int64_t tick, const std::function<bool()>& stopped) {
@@ -163,7 +207,13 @@ std::vector<double> measure_frames(const Scene& scene, const Settings& settings,
 
 std::vector<double> ns_of_frames(const Scene& scene, const Settings& settings,
                                  const std::function<bool()>& stopped) try {
-    return measure_frames(scene, settings, stopped, timed());
+    if (shows_costs()) return measure_frames(scene, settings, stopped, timed());
+    const World start = make_world(scene, settings);
+    const Rate& rate = settings.stepping.rate;
+    const double step =
+        start.body_count() == 0 ? unknown : mean_ns_of_step(start, steps_of(scene, rate), stopped);
+    if (std::isnan(step)) return {};
+    return {step * static_cast<double>(rate.steps) / static_cast<double>(frames_with_steps(rate))};
 } catch (const Error&) {
     return {};
 }
@@ -172,6 +222,7 @@ double ns_per_step(const std::vector<World>& starts, const Stepping& choice,
                    std::int64_t per_frame) try {
     constexpr std::size_t most_frames = 5;
     constexpr std::size_t fewest_starts = 2;
+    constexpr std::int64_t steps_of_start = 64;  // with a coarse clock
     FrameMeasure measure = timed();
     std::vector<double> costs;
     const Clock::time_point begin = Clock::now();
@@ -180,6 +231,11 @@ double ns_per_step(const std::vector<World>& starts, const Stepping& choice,
         World world = start;
         world.set_stepping(choice);
         if (world.try_step()) continue;
+        if (!shows_costs()) {
+            if (const double step = mean_ns_of_step(world, steps_of_start); std::isfinite(step))
+                costs.push_back(step * static_cast<double>(per_frame));
+            continue;
+        }
         std::vector<double> times;
         for (double ns = 0; times.size() < most_frames && ns < 1e9 * most_of_start;
              ns += times.back())
@@ -195,18 +251,17 @@ double ns_per_step(const std::vector<World>& starts, const Stepping& choice,
 double ns_per_step_together(const Scene& scene, const Stepping& choice,
                             const std::function<bool()>& stopped) try {
     const World start = make_world(scene, Settings{choice});
-    const auto last = std::max<std::int64_t>(
-        1, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps)));
+    const std::int64_t last = steps_of(scene, choice.rate);
     if (start.body_count() == 0) return unknown;
     std::vector<double> runs;
     const auto is_enough = [&](double seconds) {
-        return runs.size() < fewest_rounds ? seconds > patience : seconds >= least_repeating;
+        return runs.size() < fewest_rounds ? seconds > patience
+                                           : seconds >= least_repeating || !shows_costs();
     };
     for (double seconds = 0; !is_enough(seconds); seconds += runs.back()) {
-        World world = start;
-        const Clock::time_point begin = Clock::now();
-        if (!step_to(world, last, stopped)) return unknown;
-        runs.push_back(seconds_since(begin));
+        runs.push_back(
+            seconds_of(start, [&](World& world) { return step_to(world, last, stopped); }));
+        if (std::isnan(runs.back())) return unknown;
     }
     return 1e9 * *std::ranges::min_element(runs) / static_cast<double>(last);
 } catch (const Error&) {

@@ -145,7 +145,8 @@ using FrameMeasure = std::function<double(World& world, std::int64_t steps)>;
 [[nodiscard]] std::vector<double> measure_frames(const Scene& scene, const Settings& settings,
                                                  const std::function<bool()>& stopped,
                                                  const FrameMeasure& measure);
-/// The times of these frames as played, ns. Empty if the run is unstable from the first step on.
+/// The times of these frames as played, ns; with a coarse clock only their mean. Empty if the run is
+/// unstable from the first step on.
 [[nodiscard]] std::vector<double> ns_of_frames(const Scene& scene, const Settings& settings,
                                                const std::function<bool()>& stopped);
 /// The cost of a step in frames of `per_frame` steps, ns: the mean over starts that are at tick 0.
