@@ -332,6 +332,8 @@ TEST(Program, MesaWithoutItsDriverIsNoOpenGl) {
             const Outcome run = shell("export GALLIUM_DRIVER=" + driver + "; " + line + surface, 3);
             EXPECT_TRUE(holds(run.err, "unset variables of Mesa such as GALLIUM_DRIVER"));
         }
+        if (surface == "egl")
+            shell("export MESA_LOADER_DRIVER_OVERRIDE=zink; " + line + surface, 3);
     }
 }
 

@@ -24,7 +24,7 @@ fail() { echo "debian.sh: $suite: $*; see $log"; exit 1; }
 make_root() {
     root=$roots/$suite
     log=$logs/$suite-debootstrap.log
-    debootstrap --variant=minbase "$suite" "$root" >"$log" || fail "no root folder"
+    debootstrap --variant=minbase ${CCACHE_DIR:+--include=ccache} "$suite" "$root" >"$log" || fail "no root folder"
     # The lists of a mirror that is a snapshot are too old.
     echo 'Acquire::Check-Valid-Until "false";' >"$root/etc/apt/apt.conf.d/99snapshot"
     mkdir -p "$root"/dev/{shm,pts} "$root/ccache"

@@ -4,6 +4,8 @@
 #include <EGL/eglext.h>
 
 #include <array>
+#include <cstdlib>
+#include <string_view>
 
 #include "oiler/core/error.hpp"
 #include "oiler/platform/providers.hpp"
@@ -25,6 +27,15 @@ struct EglFunctions {
     decltype(&eglDestroyContext) destroy_context = library["eglDestroyContext"];
     decltype(&eglMakeCurrent) make_current = library["eglMakeCurrent"];
 };
+
+/// With this driver, Mesa 25 waits for ever where Vulkan has no device.
+void refuse_zink() {
+    for (const char* const name : {"GALLIUM_DRIVER", "MESA_LOADER_DRIVER_OVERRIDE"}) {
+        const char* const driver = std::getenv(name);
+        if (driver != nullptr && driver == std::string_view("zink"))
+            fail(Exit::no_display, "{} is zink, which needs a window; {}", name, usual_driver);
+    }
+}
 
 /// EGL on Mesa's surfaceless platform: no display server, no default framebuffer.
 class Egl final : public Surface {
@@ -87,6 +98,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Surface> open_egl() { return std::make_unique<Egl>(); }
+std::unique_ptr<Surface> open_egl() {
+    refuse_zink();
+    return std::make_unique<Egl>();
+}
 
 }  // namespace oiler
