@@ -12,10 +12,12 @@ import random
 import re
 import sys
 import tempfile
+from base64 import b64decode
 from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import png
 from visit import Visit, has_colours, native
 
 DEMOS = ("jump", "cannon", "platformer", "cloth", "integrator_race", "stability_map", "jump_rates",
@@ -55,6 +57,25 @@ def layout(visit):
                 .filter(e => e.checkVisibility() && e.offsetHeight < 44).map(e => e.textContent)""")
             visit.expect(width > 500 or not small, f"too small to touch: {small}")
     visit.browser.resize(1280)
+
+
+def pictures(visit):
+    """The first picture of a demo is the native one, but for the smoothing of its edges."""
+    visit.browser.resize(1280, 1500)
+    visit.before_scripts("""const {getContext} = HTMLCanvasElement.prototype;
+        HTMLCanvasElement.prototype.getContext = function(kind, options) {
+            return getContext.call(this, kind, {...options, preserveDrawingBuffer: true}); }""")
+    for demo in DEMOS:
+        visit.play(demo)
+        visit.browser.value("void play(['--no-line', '--frames', '1'])")
+        visit.wait("find('said').textContent.includes('ended')", f"the end of {demo}")
+        drawn = png.decode(b64decode(visit.browser.value("find('canvas').toDataURL()").split(",")[1]))
+        folder = visit.folder / f"{demo}_picture"
+        native(visit.programs, demo, "--headless", "--frames", 1, "--size",
+               f"{drawn.width}x{drawn.height}", "--out", folder)
+        expected = png.decode((folder / "frame_000000.png").read_bytes())
+        far = sum(abs(a - b) > 8 for rows in zip(drawn.rows, expected.rows) for a, b in zip(*rows))
+        visit.expect(far < 1e-4 * 3 * drawn.width * drawn.height, f"{demo}: {far} bytes differ")
 
 
 def settings(visit):
@@ -305,7 +326,7 @@ def main():
                 return answer
 
         def visit_all():
-            for check in (first_pictures, layout, settings, loop_keys, touch, bits, lab, hostile):
+            for check in (first_pictures, pictures, layout, settings, loop_keys, touch, bits, lab, hostile):
                 visiting(check)
             visiting(native_recordings, options.recordings)
             visiting(page_recordings, options.recordings)
