@@ -38,6 +38,7 @@ make_root() {
 inside() {
     local began=$SECONDS variables=(PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root)
     variables+=(DEBIAN_FRONTEND=noninteractive CCACHE_{DIR=/ccache,BASEDIR=/oiler,NOHASHDIR=true})
+    [ -z "${CCACHE_DIR:-}" ] || variables+=(CMAKE_{C,CXX}_COMPILER_LAUNCHER=ccache)
     log=$logs/$suite-$1.log
     chroot "$root" env -i "${variables[@]}" CCACHE_SLOPPINESS=pch_defines,time_macros \
         bash -euo pipefail -c "cd /oiler; $2" >"$log" 2>&1 || fail "$1: exit code $?"
