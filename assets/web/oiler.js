@@ -65,8 +65,9 @@ const failureIn = (lines, args) => lines.find(line => line.startsWith(`${args[0]
 function runOiler(args, files, onLine = () => {}) {
   const lines = {output: [], errors: []};
   const {promise, resolve} = withResolvers();
-  let worker = null;
+  let worker = null, isOver = false;
   const end = failure => {
+    isOver = true;
     worker?.terminate();
     resolve({...lines, failure});
   };
@@ -75,6 +76,7 @@ function runOiler(args, files, onLine = () => {}) {
     onLine(line);
   };
   oilerModule.then(wasm => {
+    if (isOver) return;
     worker = new Worker(workerUrl());
     worker.onmessage = ({data: {stream, line}}) =>
       stream ? take(stream, line) : end(failureIn(lines.errors, args));
@@ -111,7 +113,7 @@ function serveCommand(createOiler) {
   };
 }
 
-// Returns a function that shows a text, at most one a second, for screen readers.
+// Returns a function that shows a text, at most one a second, so that it can be read.
 function slowly(element) {
   let text = '';
   setInterval(() => { if (element.textContent !== text) element.textContent = text; }, 1000);

@@ -31,7 +31,10 @@ const settingOptions = text => {
   return ['--method', method, '--rate', rate];
 };
 // A game may refuse its own setting as an option.
-const chosenOptions = () => setting && setting !== usualSetting ? settingOptions(setting) : [];
+const chosenOptions = () => {
+  const chosen = wish ?? setting;
+  return chosen && chosen !== usualSetting ? settingOptions(chosen) : [];
+};
 
 // One game after the other.
 let queue = Promise.resolve();
@@ -51,6 +54,8 @@ async function end() {
 async function start(options, files) {
   complain('');
   say('');
+  wish = null;  // the options have it
+  fixSetting(recordingFile in files || options.includes(recordingFile));
   const canvas = find('canvas').cloneNode();  // a canvas keeps its context, also a lost one
   find('canvas').replaceWith(canvas);
   const remarks = [];
@@ -58,9 +63,12 @@ async function start(options, files) {
   const shown = playing = {module: null, ended: promise};
   let isLost = false, isOver = false;
   canvas.addEventListener('webglcontextlost', () => { isLost = true; });
+  canvas.addEventListener('keydown', ({code}) => { if (isOver && code === 'F9') play(); });
   const onEnd = reason => {
     shown.module = null;
     isOver = true;
+    fixSetting(false);
+    find('pause').ariaPressed = false;
     resolve();
     if (isLost) play(files[recordingFile] ? options : chosenOptions(), files);
     else if (reason) complain(reason);
@@ -83,15 +91,15 @@ async function start(options, files) {
     const failure = failureIn(remarks, args);
     if (failure) return onEnd(failure);
     shown.module = module;
-    canvas.focus({preventScroll: true});
+    if (document.activeElement !== find('text')) canvas.focus({preventScroll: true});
   } catch (error) {
     onEnd(error.message);
   }
 }
 
-function tell(line, status, now) {
+function tell(line, now, isPaused) {
   showLine(line);
-  find('pause').ariaPressed = status.includes('paused');
+  find('pause').ariaPressed = isPaused;
   if (now === setting) return;
   setting = now;
   usualSetting ??= now;
@@ -118,7 +126,6 @@ for (const button of document.querySelectorAll('[data-code]')) {
     sendKey('keyup', code);
   });
 }
-find('restart').addEventListener('click', () => { if (!playing?.module) play(); });
 
 function showSetting() {
   if (setting === '') return;
@@ -135,13 +142,17 @@ async function listMethods() {
   showSetting();
 }
 
+let settingTimer;
 for (const id of ['rate', 'method'])
   find(id).addEventListener('change', () => {
     if (!find('rate').reportValidity()) return;
-    const wanted = `${find('method').value}@${find('rate').value}`;
-    if (!playing?.module) return play(settingOptions(wanted));
-    wish = wanted;
-    setTimeout(showSetting, 1000);  // a game may keep its setting
+    const wanted = wish = `${find('method').value}@${find('rate').value}`;
+    if (!playing?.module) return play();
+    clearTimeout(settingTimer);
+    settingTimer = setTimeout(() => {
+      showSetting();
+      if (setting !== wanted) say('This game keeps its setting.');
+    }, 1000);
   });
 
 function fixSetting(isFixed) {
@@ -151,21 +162,25 @@ function fixSetting(isFixed) {
 // Link
 
 const isOfList = text => game.file && (game.text === undefined || text === game.text);
+// A link has no longer scene than a file.
+const hasLink = () => !isScene() || new TextEncoder().encode(find('text').value).length <= longestScene;
 async function link() {
   const text = find('text').value;
   const what = !isScene() ? game.name
     : isOfList(text) ? `scene=${game.file}` : await linkOfText(text);
-  return `#${what}${setting === usualSetting ? '' : `&setting=${setting}`}`;
+  const chosen = wish ?? setting;
+  return `#${what}${!chosen || chosen === usualSetting ? '' : `&setting=${chosen}`}`;
 }
 
 let linkTimer;
 function keepLink() {
   clearTimeout(linkTimer);
-  linkTimer = setTimeout(async () => history.replaceState(null, '', await link()), 500);
+  if (hasLink()) linkTimer = setTimeout(async () => history.replaceState(null, '', await link()), 500);
 }
 
 find('copy').addEventListener('click', async () => {
   clearTimeout(linkTimer);
+  if (!hasLink()) return say('This scene is too long for a link: keep it as a file.');
   history.replaceState(null, '', await link());
   try {
     await navigator.clipboard.writeText(location.href);
@@ -197,7 +212,6 @@ find('record').addEventListener('click', async () => {
 
 function setRecording(of, isRecording) {
   of.isRecording = isRecording;
-  fixSetting(isRecording);
   find('record').textContent = isRecording ? 'Stop and save' : 'Record';
 }
 
@@ -214,7 +228,13 @@ async function open(file) {
   if (magic.startsWith('OILERREC')) return replay(bytes, header);
   if (bytes.length > longestScene)
     return complain('This file is too long: a scene has at most 64 KiB.');
-  location.hash = await linkOfText(new TextDecoder().decode(bytes));
+  let text;
+  try {
+    text = new TextDecoder('utf-8', {fatal: true}).decode(bytes);
+  } catch {
+    return complain('This file is not UTF-8 text: save the scene as UTF-8.');
+  }
+  location.hash = await linkOfText(text);
 }
 
 async function replay(bytes, header) {
@@ -230,10 +250,7 @@ async function replay(bytes, header) {
     show({name});
     usualSetting = '';  // unknown: links name the setting
   }
-  fixSetting(true);
   await play(['--replay', recordingFile], {[recordingFile]: bytes});
-  await playing.ended;
-  fixSetting(false);
 }
 
 find('file').addEventListener('change', ({target}) => {
@@ -252,13 +269,21 @@ document.addEventListener('drop', event => {
 const isDemo = name => oilerList.demos.some(demo => demo.name === name);
 const isListed = file => oilerList.scenes.some(scene => scene.file === file);
 
+// The text of a scene of the list comes with the program.
+function setReady(isReady) {
+  find('text').readOnly = !isReady;
+  for (const button of document.querySelectorAll('#bits, [data-command]')) button.disabled = !isReady;
+}
+
 function show(newGame) {
   game = newGame;
   usualSetting = null;
   find('title').textContent = game.name?.replaceAll('_', ' ') ?? game.file ?? 'A scene';
   find('scene').hidden = !isScene();
   find('record').hidden = isScene();
+  find('canvas').ariaLabel = `Picture of ${find('title').textContent}`;
   document.body.classList.toggle('scene', isScene());
+  setReady(!game.file);
 }
 
 async function begin() {
@@ -278,6 +303,7 @@ async function begin() {
   if (link.text !== undefined && !await readScene()) return;
   if (linked) usualSetting = '';
   await play(linked ? settingOptions(linked) : []);
+  await queue;  // of another setting, chosen meanwhile
   if (!playing.module && linked) {
     const reason = find('problem').textContent;
     usualSetting = null;
@@ -288,6 +314,7 @@ async function begin() {
   if (game.file) {
     find('text').value = playing.module.FS.readFile(scenePath(), {encoding: 'utf8'});
     game.text = find('text').value;
+    setReady(true);
     readScene();
   }
 }

@@ -41,21 +41,23 @@ find('text').addEventListener('input', () => {
   typing = setTimeout(playText, 200);
 });
 
-// Returns the result of a command. Its lines appear as they come.
+// Shows the lines of a command as they come, and how far it is.
 async function measure(args) {
   measuring?.cancel();
   find('lab').hidden = find('busy').hidden = false;
-  find('results').textContent = '';
+  find('results').textContent = find('progress').textContent = '';
   find('results').ariaBusy = true;
   find('lab').scrollIntoView({block: 'nearest'});
-  const job = measuring = runOiler(args, sceneFiles(), line =>
-    find('results').append(line.replace('; --time-limit S ends earlier', ''), '\n'));
-  const result = await job.result;
-  if (job !== measuring) return result;
+  const job = measuring = runOiler(args, sceneFiles(), line => {
+    const [progress, ending] = line.split('; --time-limit');
+    if (ending) find('progress').textContent = progress;
+    else find('results').append(line, '\n');
+  });
+  const {failure} = await job.result;
+  if (job !== measuring) return;
   find('busy').hidden = true;
   find('results').ariaBusy = false;
-  if (result.failure === null) find('results').append('Cancelled.');
-  return result;
+  say(failure === null ? 'Cancelled.' : failure ? 'The command has failed.' : 'The results are complete.');
 }
 
 for (const button of document.querySelectorAll('[data-command]'))
@@ -68,14 +70,15 @@ find('cancel').addEventListener('click', () => measuring.cancel());
 
 // Compares the state hash after 600 steps with that of the native program.
 find('bits').addEventListener('click', async () => {
-  const run = ['--steps', '600', '--quiet', '--json', '-'];
-  const {failure, output} = await measure([...command(), ...run]);
-  if (failure !== '') return;
-  const {state_hash: hash, steps} = JSON.parse(output.join(''));
-  const isChanged = isScene() && find('text').value !== game.text;
-  const native = isChanged ? undefined : oilerList.hashes[game.name ?? game.file];
+  say('Playing 600 steps…');
+  const options = chosenOptions();
+  const isNative = options.length === 0 && (!isScene() || isOfList(find('text').value));
+  const run = [...command(), ...options, '--steps', '600', '--quiet', '--json', '-'];
+  const {failure, output} = await runOiler(run, sceneFiles()).result;
+  if (failure !== '') return say(failure);
+  const {state_hash: hash, steps, method, rate} = JSON.parse(output.join(''));
+  const native = isNative ? oilerList.hashes[game.name ?? game.file] : undefined;
   const verdict = native === undefined ? '' :
     native === hash ? ': equal to the native program' : `: the native program has ${native}`;
-  find('lab').hidden = true;
-  say(`State hash after ${steps} steps: ${hash}${verdict}.`);
+  say(`State hash after ${steps} steps of ${method} at ${rate} Hz: ${hash}${verdict}.`);
 });

@@ -204,6 +204,45 @@ def recording_is_left(visit):
     visit.expect("the replay equals" in answer.stderr, f"hello.rec: {answer.stderr}")
 
 
+def setting_is_kept(visit):
+    """A setting that the game does not have yet is shown, linked and recorded."""
+    visit.play("hello")
+    visit.click("pause")
+    visit.wait("find('pause').ariaPressed === 'true'", "the pause")
+    visit.fill("rate", "45")
+    visit.wait("location.hash === '#hello&setting=semi_implicit_euler@45'", "the setting in the link")
+    visit.sleep(1.2)
+    visit.expect(visit.browser.value("find('pause').ariaPressed === 'true' && find('rate').value") == "45",
+                 "a paused game forgets its new rate")
+    visit.browser.value("""find('rate').value = 30; find('rate').dispatchEvent(new Event('change'));
+        find('record').click()""")
+    visit.wait("playing.isRecording", "a recording")
+    visit.wait_setting("semi_implicit_euler@30", "the rate that was chosen before the recording")
+    visit.click("record")
+    visit.wait("!playing.isRecording", "the end of the recording")
+    visit.browser.press("Escape", code="Escape")
+    visit.wait("find('said').textContent.includes('ended')", "the end")
+    visit.browser.press("F9", code="F9")
+    visit.wait("playing.module !== null", "F9 after the end")
+
+
+def another_setting_is_not_native(visit):
+    visit.play("scene=jump.toml")
+    visit.wait("!find('bits').disabled", "the text of the scene")
+    visit.click("bits")
+    visit.wait("find('said').textContent.includes('equal to the native')", "the bits")
+    visit.choose("method", "rk4")
+    visit.wait_setting("rk4@60", "the method")
+    visit.click("bits")
+    visit.wait("/of rk4 at 60 Hz: \\w{16}\\.$/.test(find('said').textContent)", "the bits of rk4")
+    visit.type("[")
+    visit.click("bits")
+    visit.wait("find('said').textContent.includes('not TOML')", "no bits of no scene")
+    visit.browser.value("find('text').value = '#'.repeat(66000)")
+    visit.click("copy")
+    visit.wait("find('said').textContent.includes('too long')", "no link of a long scene")
+
+
 def impossible_setting(visit):
     visit.open("scene=cloth.toml&setting=exact@60")
     visit.wait("find('problem').textContent.includes('exact')", "why exact is impossible")
@@ -254,7 +293,7 @@ def lab(visit):
     visit.browser.click("document.querySelector('[data-command=rates]')")
     visit.wait("find('cancel').checkVisibility()", "a button to cancel")
     visit.click("cancel")
-    visit.wait("find('results').textContent.endsWith('Cancelled.')", "the end of the rates")
+    visit.wait("find('said').textContent === 'Cancelled.'", "the end of the rates")
 
 
 def hostile(visit):
@@ -331,6 +370,8 @@ def main():
             visiting(native_recordings, options.recordings)
             visiting(page_recordings, options.recordings)
             visiting(recording_is_left)
+            visiting(setting_is_kept)
+            visiting(another_setting_is_not_native)
             visiting(impossible_setting)
             edited = visiting(editor)
             if edited:

@@ -105,6 +105,10 @@ public:
     [[nodiscard]] Picture& play(std::chrono::nanoseconds now);
 
     [[nodiscard]] State state() const;
+    /// The setting of the game, or the one that it is about to have.
+    [[nodiscard]] const Stepping& next_stepping() const {
+        return change_.wanted() ? *change_.wanted() : playback_.world().settings().stepping;
+    }
     /// The state as a text for the player; empty while the game plays at its pace.
     [[nodiscard]] std::string status() const;
     [[nodiscard]] const std::optional<Error>& divergence() const { return divergence_; }

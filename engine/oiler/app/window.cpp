@@ -180,10 +180,10 @@ void GameWindow::draw(const Requests& requests, const Input& keys, std::chrono::
     window_->take_text(run_.playback.loop().takes_text());
     run_.live.shown = picture.camera;
     const std::string state = status(requests);
-    const Stepping& stepping = run_.playback.world().settings().stepping;
+    const Stepping& stepping = play_.next_stepping();
     window_->tell({.line = play_.verdict().text,
-                   .status = state,
-                   .setting = fmt::format("{}@{}", stepping.method->name, stepping.rate.steps)});
+                   .setting = fmt::format("{}@{}", stepping.method->name, stepping.rate.steps),
+                   .is_paused = play_.clock().is_paused()});
     const Picture above = overlay(picture.background, state);
     const std::chrono::nanoseconds before = time_now();
     present(picture, above, state, keys, now);

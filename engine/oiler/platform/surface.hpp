@@ -65,8 +65,8 @@ public:
     /// What the window shows, in words.
     struct Told {
         std::string line;     ///< on the error of the timestep
-        std::string status;   ///< of the loop, such as a pause
         std::string setting;  ///< such as "rk4@120"
+        bool is_paused = false;
         friend bool operator==(const Told&, const Told&) = default;
     };
     /// Tells it to what is around a canvas, for people who do not see that. A window has nothing

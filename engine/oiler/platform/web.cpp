@@ -21,8 +21,8 @@
 // This is JavaScript.
 // clang-format off
 EM_JS(void, oiler_web_title, (const char* title), { Module.onTitle?.(UTF8ToString(title)); });
-EM_JS(void, oiler_web_text, (const char* line, const char* status, const char* setting), {
-    Module.onText?.(UTF8ToString(line), UTF8ToString(status), UTF8ToString(setting));
+EM_JS(void, oiler_web_text, (const char* line, const char* setting, bool isPaused), {
+    Module.onText?.(UTF8ToString(line), UTF8ToString(setting), isPaused !== 0);
 });
 EM_JS(void, oiler_web_end, (const char* reason), { Module.onEnd?.(UTF8ToString(reason)); });
 EM_JS(char*, oiler_web_wish, (), {
@@ -288,7 +288,7 @@ public:
     void set_title(const std::string& title) override { oiler_web_title(title.c_str()); }
     void tell(const Told& told) override {
         if (std::exchange(told_, told) != told)
-            oiler_web_text(told.line.c_str(), told.status.c_str(), told.setting.c_str());
+            oiler_web_text(told.line.c_str(), told.setting.c_str(), told.is_paused);
     }
     void fill_screen(bool on) override {
         if (on)

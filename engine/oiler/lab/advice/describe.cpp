@@ -202,7 +202,9 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
             "The search ended before it had tried all settings, because that is too much work: a "
             "cheaper one may exist.");
     if (advice.cheapest) words.push_back(beside("Cheapest", *advice.cheapest, advice, reference));
-    if (advice.runner_up)
+    const bool is_cheapest = advice.runner_up && advice.cheapest &&
+                             advice.runner_up->stepping == advice.cheapest->stepping;
+    if (advice.runner_up && !is_cheapest)
         words.push_back(beside("Runner-up", *advice.runner_up, advice, reference));
     if (advice.current)
         words.push_back(beside("Current setting", *advice.current, advice, reference));

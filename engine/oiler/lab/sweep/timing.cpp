@@ -39,11 +39,11 @@ double clock_time() {
     return least;
 }
 
-/// The mean time of work(), s, over as many calls as a coarse clock needs to show it to 5 %.
+/// The mean time of work(), s, over as many calls as a coarse clock needs to show it to 2 %.
 /// `unknown` if it returns false.
 template <class Work>
 double mean_seconds(Work work) {
-    constexpr int clock_steps = 20;
+    constexpr int clock_steps = 50;
     double passed = 0;
     std::int64_t calls = 0;
     for (const Clock::time_point begin = Clock::now(); passed < clock_steps * clock_step();
