@@ -150,7 +150,7 @@ TEST(DiscRuns, HoldEachDiscOnceInOrder) {
     discs[0].radius = 40;                                              // alone
     for (std::size_t i = 2; i < many; i += 2) discs[i].radius = 4.5F;  // too short a run
     discs[2 * many].radius = 5;
-    const std::vector<DiscRun> runs = runs_of(discs, frame);
+    const std::vector<DiscRun> runs = runs_of(discs, frame, false);
     std::vector<std::size_t> splatted;
     std::size_t next = 0;
     for (const DiscRun& run : runs) {
@@ -161,10 +161,13 @@ TEST(DiscRuns, HoldEachDiscOnceInOrder) {
     }
     EXPECT_EQ(next, discs.size());
     EXPECT_EQ(splatted, (std::vector<std::size_t>{many + 1, many - 1}));
-    EXPECT_TRUE(runs_of({}, frame).empty());
+    EXPECT_TRUE(runs_of({}, frame, false).empty());
+    EXPECT_TRUE(runs_of(std::span(discs).subspan(2 * many + 1, 500), frame, true)[0].is_splatted);
+    EXPECT_FALSE(runs_of(std::span(discs).subspan(2 * many + 1, 499), frame, true)[0].is_splatted);
     // A large frame needs more discs for an image to pay.
-    EXPECT_EQ(runs_of(std::span(discs).subspan(2 * many + 1), {3840, 2160}).size(), 1U);
-    EXPECT_FALSE(runs_of(std::span(discs).subspan(2 * many + 1), {3840, 2160})[0].is_splatted);
+    EXPECT_EQ(runs_of(std::span(discs).subspan(2 * many + 1), {3840, 2160}, false).size(), 1U);
+    EXPECT_FALSE(
+        runs_of(std::span(discs).subspan(2 * many + 1), {3840, 2160}, false)[0].is_splatted);
 }
 
 TEST(Splats, AreCutByTheEdgesOfTheFrame) {

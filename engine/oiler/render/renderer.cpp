@@ -223,7 +223,7 @@ struct Renderer::Impl {
     }
 
     void draw_discs(Size size) {
-        for (const DiscRun& run : runs_of(layout.discs, size))
+        for (const DiscRun& run : runs_of(layout.discs, size, is_embedded(gl)))
             run.is_splatted ? draw_splats(run.discs, size) : draw_quads(discs, run.discs, size);
     }
 
@@ -233,8 +233,11 @@ struct Renderer::Impl {
         gl.BindTexture(GL_TEXTURE_2D, splat_texels);
         gl.BindSampler(0, 0);
         gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16UI, size.width, size.height, 0, GL_RGBA_INTEGER,
-                      GL_UNSIGNED_SHORT, splats.texels().data());
+        if (std::exchange(splat_size, size) != size)
+            gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16UI, size.width, size.height, 0,
+                          GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, nullptr);
+        gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_RGBA_INTEGER,
+                         GL_UNSIGNED_SHORT, splats.texels().data());
         splat_image.use(gl, size);
         gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
         gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -289,6 +292,7 @@ struct Renderer::Impl {
     Batch overlays;
     GlName atlas;
     GlName splat_texels;
+    Size splat_size{};  ///< of splat_texels
     Textures textures;
     Glyphs glyphs;
     Splats splats;

@@ -10,10 +10,12 @@ namespace {
 
 constexpr float largest_splat = 4;             // pixels of radius
 constexpr std::size_t fewest_splats = 10'000;  // in a run
-constexpr std::size_t pixels_per_quad = 64;    // of the image, in the time of a quad
+constexpr std::size_t fewest_embedded_splats = 500;
+constexpr std::size_t pixels_per_quad = 64;  // of the image, in the time of a quad
 constexpr unsigned most_threads = 8;
 
-std::size_t shortest_run(Size frame) {
+std::size_t shortest_run(Size frame, bool is_embedded) {
+    if (is_embedded) return fewest_embedded_splats;
     return std::max(fewest_splats, static_cast<std::size_t>(frame.width) *
                                        static_cast<std::size_t>(frame.height) / pixels_per_quad);
 }
@@ -79,8 +81,8 @@ void splat(const PlacedDisc& disc, Size frame, int part, int parts, Splats::Texe
 
 }  // namespace
 
-std::vector<DiscRun> runs_of(std::span<const PlacedDisc> discs, Size frame) {
-    const std::size_t shortest = shortest_run(frame);
+std::vector<DiscRun> runs_of(std::span<const PlacedDisc> discs, Size frame, bool is_embedded) {
+    const std::size_t shortest = shortest_run(frame, is_embedded);
     std::vector<DiscRun> runs;
     std::size_t done = 0;
     const auto draw_until = [&](std::size_t end, bool is_splatted) {
@@ -101,7 +103,8 @@ std::vector<DiscRun> runs_of(std::span<const PlacedDisc> discs, Size frame) {
 }
 
 void Splats::draw(std::span<const PlacedDisc> discs, Size frame) {
-    if (!team_) team_.emplace(std::clamp(std::thread::hardware_concurrency(), 1U, most_threads), false);
+    if (!team_)
+        team_.emplace(std::clamp(std::thread::hardware_concurrency(), 1U, most_threads), false);
     texels_.assign(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height),
                    {});
     team_->run([&](std::size_t part) {

@@ -20,8 +20,9 @@ struct DiscRun {
 
 /// Decides how each disc of a layer is drawn, in the order of the list. Long runs of small discs
 /// are splatted: a rasteriser on a CPU sets up a quad in the time of fifty pixels. Short runs would
-/// not pay for the image.
-[[nodiscard]] std::vector<DiscRun> runs_of(std::span<const PlacedDisc> discs, Size frame);
+/// not pay for the image. With OpenGL ES, a browser may set up a quad in the time of 10,000 pixels.
+[[nodiscard]] std::vector<DiscRun> runs_of(std::span<const PlacedDisc> discs, Size frame,
+                                           bool is_embedded);
 
 /// Draws discs into an image on the CPU. They have the coverage of the disc shader; sixteen bits
 /// per channel lose less than the eight of a frame. Results do not depend on the number of threads.
