@@ -25,9 +25,9 @@ struct CommandOfHelp {
 
 std::vector<CommandOfHelp> commands() {
     const std::string help = shell("oiler --help").out;
+    const std::size_t list = std::min(help.find("\nSubcommands:"), help.find("\nSUBCOMMANDS:"));
     std::vector<CommandOfHelp> all;
-    for (const std::string& name :
-         words_in(help.substr(help.find("\nSubcommands:")), "\n  ([a-z]+) ")) {
+    for (const std::string& name : words_in(help.substr(list), "\n  ([a-z]+) ")) {
         const std::string text = shell("oiler " + name + " --help").out;
         CommandOfHelp command{name, "", words_in(text, "\n  (--[a-z-]+) (?:FILE|DIR)")};
         for (const std::string input : {"SCENE", "PART", "GOLDEN"})

@@ -95,16 +95,32 @@ inline CLI::Option* add_damping(CLI::App& app, std::string& words) {
 }
 
 [[nodiscard]] inline std::string describe(const CLI::ParseError& error) {
-    constexpr std::string_view repeated = "At Most 1 required but received ";
     std::string text = error.what();
-    if (const std::size_t at = text.find(repeated); at != text.npos)
-        text = text.replace(at, repeated.size(), "given ") + " times; give it once";
+    for (const std::string_view repeated :
+         {"At Most 1 required but received ", "At most 1 required but received "})
+        if (const std::size_t at = text.find(repeated); at != text.npos)
+            return text.replace(at, repeated.size(), "given ") + " times; give it once";
     return text;
+}
+
+/// Newer versions of CLI11 break lines and indent names, unless they are told not to, and leave
+/// lines empty.
+template <class Formatter>
+void keep_lines(Formatter& formatter) {
+    if constexpr (requires { formatter.right_column_width(1); }) {
+        constexpr std::size_t wide = 1000;
+        formatter.right_column_width(wide);
+        formatter.description_paragraph_width(wide);
+        formatter.footer_paragraph_width(wide);
+        formatter.long_option_alignment_ratio(2.0F / 30);
+    }
 }
 
 /// The help of the command, with one end of line at its end.
 [[nodiscard]] inline std::string help_of(const CLI::App& app) {
-    const std::string text = app.help();
+    keep_lines(*app.get_formatter());
+    std::string text = app.help();
+    for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != text.npos;) text.erase(at, 2);
     return text.substr(0, text.find_last_not_of('\n') + 1) + "\n";
 }
 
