@@ -163,7 +163,8 @@ function fixSetting(isFixed) {
 
 const isOfList = text => game.file && (game.text === undefined || text === game.text);
 // A link has no longer scene than a file.
-const hasLink = () => !isScene() || new TextEncoder().encode(find('text').value).length <= longestScene;
+const hasLink = () =>
+  !isScene() || new TextEncoder().encode(find('text').value).length <= longestScene;
 async function link() {
   const text = find('text').value;
   const what = !isScene() ? game.name
@@ -175,7 +176,8 @@ async function link() {
 let linkTimer;
 function keepLink() {
   clearTimeout(linkTimer);
-  if (hasLink()) linkTimer = setTimeout(async () => history.replaceState(null, '', await link()), 500);
+  if (!hasLink()) return;
+  linkTimer = setTimeout(async () => history.replaceState(null, '', await link()), 500);
 }
 
 find('copy').addEventListener('click', async () => {
@@ -272,7 +274,8 @@ const isListed = file => oilerList.scenes.some(scene => scene.file === file);
 // The text of a scene of the list comes with the program.
 function setReady(isReady) {
   find('text').readOnly = !isReady;
-  for (const button of document.querySelectorAll('#bits, [data-command]')) button.disabled = !isReady;
+  for (const button of document.querySelectorAll('#bits, [data-command]'))
+    button.disabled = !isReady;
 }
 
 function show(newGame) {

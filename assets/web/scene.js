@@ -57,14 +57,16 @@ async function measure(args) {
   if (job !== measuring) return;
   find('busy').hidden = true;
   find('results').ariaBusy = false;
-  say(failure === null ? 'Cancelled.' : failure ? 'The command has failed.' : 'The results are complete.');
+  say(failure === null ? 'Cancelled.'
+    : failure ? 'The command has failed.' : 'The results are complete.');
 }
 
 for (const button of document.querySelectorAll('[data-command]'))
   button.addEventListener('click', () => {
     const {command: name} = button.dataset;
     if (name === 'advise' && !find('pixels').reportValidity()) return;
-    measure(['oiler', name, scenePath(), ...name === 'advise' ? ['--pixels', find('pixels').value] : []]);
+    const tolerance = name === 'advise' ? ['--pixels', find('pixels').value] : [];
+    measure(['oiler', name, scenePath(), ...tolerance]);
   });
 find('cancel').addEventListener('click', () => measuring.cancel());
 

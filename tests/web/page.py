@@ -69,7 +69,8 @@ def pictures(visit):
         visit.play(demo)
         visit.browser.value("void play(['--no-line', '--frames', '1'])")
         visit.wait("find('said').textContent.includes('ended')", f"the end of {demo}")
-        drawn = png.decode(b64decode(visit.browser.value("find('canvas').toDataURL()").split(",")[1]))
+        address = visit.browser.value("find('canvas').toDataURL()")
+        drawn = png.decode(b64decode(address.split(",")[1]))
         folder = visit.folder / f"{demo}_picture"
         native(visit.programs, demo, "--headless", "--frames", 1, "--size",
                f"{drawn.width}x{drawn.height}", "--out", folder)
@@ -210,10 +211,10 @@ def setting_is_kept(visit):
     visit.click("pause")
     visit.wait("find('pause').ariaPressed === 'true'", "the pause")
     visit.fill("rate", "45")
-    visit.wait("location.hash === '#hello&setting=semi_implicit_euler@45'", "the setting in the link")
+    visit.wait("location.hash === '#hello&setting=semi_implicit_euler@45'", "the linked setting")
     visit.sleep(1.2)
-    visit.expect(visit.browser.value("find('pause').ariaPressed === 'true' && find('rate').value") == "45",
-                 "a paused game forgets its new rate")
+    kept = visit.browser.value("[find('pause').ariaPressed, find('rate').value]")
+    visit.expect(kept == ["true", "45"], f"a paused game forgets its new rate: {kept}")
     visit.browser.value("""find('rate').value = 30; find('rate').dispatchEvent(new Event('change'));
         find('record').click()""")
     visit.wait("playing.isRecording", "a recording")
@@ -365,14 +366,12 @@ def main():
                 return answer
 
         def visit_all():
-            for check in (first_pictures, pictures, layout, settings, loop_keys, touch, bits, lab, hostile):
+            for check in (first_pictures, pictures, layout, settings, loop_keys, touch, bits, lab,
+                          recording_is_left, setting_is_kept, another_setting_is_not_native,
+                          impossible_setting, hostile):
                 visiting(check)
             visiting(native_recordings, options.recordings)
             visiting(page_recordings, options.recordings)
-            visiting(recording_is_left)
-            visiting(setting_is_kept)
-            visiting(another_setting_is_not_native)
-            visiting(impossible_setting)
             edited = visiting(editor)
             if edited:
                 visiting(link_in_fresh_browser, *edited)

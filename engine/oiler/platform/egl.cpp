@@ -33,7 +33,8 @@ void refuse_zink() {
     for (const char* const name : {"GALLIUM_DRIVER", "MESA_LOADER_DRIVER_OVERRIDE"}) {
         const char* const driver = std::getenv(name);
         if (driver != nullptr && driver == std::string_view("zink"))
-            fail(Exit::no_display, "{} is zink, which needs a window; {}", name, usual_driver);
+            fail(Exit::no_display, "{} is zink, for which Mesa may wait for ever; {}", name,
+                 usual_driver);
     }
 }
 

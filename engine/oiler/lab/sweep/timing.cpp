@@ -39,6 +39,9 @@ double clock_time() {
     return least;
 }
 
+/// Whether the clock shows a single frame.
+bool has_fine_clock() { return clock_step() < 1e-6; }
+
 /// The mean time of work(), s, over as many calls as a coarse clock needs to show it to 2 %.
 /// `unknown` if it returns false.
 template <class Work>
@@ -56,7 +59,7 @@ double mean_seconds(Work work) {
 template <class Run>
 double seconds_of(const World& start, Run run) {
     World world = start;
-    if (shows_costs()) {
+    if (has_fine_clock()) {
         const Clock::time_point begin = Clock::now();
         return run(world) ? seconds_since(begin) : unknown;
     }
@@ -207,7 +210,7 @@ std::vector<double> measure_frames(const Scene& scene, const Settings& settings,
 
 std::vector<double> ns_of_frames(const Scene& scene, const Settings& settings,
                                  const std::function<bool()>& stopped) try {
-    if (shows_costs()) return measure_frames(scene, settings, stopped, timed());
+    if (has_fine_clock()) return measure_frames(scene, settings, stopped, timed());
     const World start = make_world(scene, settings);
     const Rate& rate = settings.stepping.rate;
     const double step =
@@ -231,7 +234,7 @@ double ns_per_step(const std::vector<World>& starts, const Stepping& choice,
         World world = start;
         world.set_stepping(choice);
         if (world.try_step()) continue;
-        if (!shows_costs()) {
+        if (!has_fine_clock()) {
             if (const double step = mean_ns_of_step(world, steps_of_start); std::isfinite(step))
                 costs.push_back(step * static_cast<double>(per_frame));
             continue;
@@ -256,7 +259,7 @@ double ns_per_step_together(const Scene& scene, const Stepping& choice,
     std::vector<double> runs;
     const auto is_enough = [&](double seconds) {
         return runs.size() < fewest_rounds ? seconds > patience
-                                           : seconds >= least_repeating || !shows_costs();
+                                           : seconds >= least_repeating || !has_fine_clock();
     };
     for (double seconds = 0; !is_enough(seconds); seconds += runs.back()) {
         runs.push_back(
