@@ -37,15 +37,28 @@ struct HeldFall {
     }
 };
 
+/// A fall whose updates are slow.
+struct SlowFall {
+    static constexpr About about = HeldFall::about;
+    static inline int updates = 0;
+
+    World world;
+    explicit SlowFall(const Settings& settings) : world(1, settings) { (void)world.spawn(Body{}); }
+    void update(const Input&) {
+        std::this_thread::sleep_for(milliseconds(2));
+        ++updates;
+    }
+};
+
+template <class Fall = HeldFall>
 AlongFrom start(bool may_repeat) {
-    return {.play = {.settings = {.stepping = {.method = &find_method("semi_implicit_euler"),
-                                               .rate = {60}}}},
-            .make =
-                [](const Settings& settings) {
-                    return std::make_unique<AnyGameOf<HeldFall>>(settings);
-                },
-            .is_start = true,
-            .may_repeat = may_repeat};
+    return {
+        .play = {.settings = {.stepping = {.method = &find_method("semi_implicit_euler"),
+                                           .rate = {60}}}},
+        .make =
+            [](const Settings& settings) { return std::make_unique<AnyGameOf<Fall>>(settings); },
+        .is_start = true,
+        .may_repeat = may_repeat};
 }
 
 /// What is known once `steps` of the last round were played along and judged.
@@ -111,6 +124,22 @@ TEST_F(Lag, AnotherSettingIsMeasuredAtOnce) {
     ASSERT_TRUE(figures.measured);
     EXPECT_NEAR(figures.measured->runs.front().distance, off_after(3) / 2, 1e-12);
     EXPECT_LT(HeldFall::latest, 4 / 60.0) << "the first round was left";
+}
+
+// Until its next instant, the reference takes 8 steps, so at least 16 ms. A frame has 6 ms at most.
+TEST(Aside, WithoutAThreadALongPartTakesTheTimeOfLaterFrames) {
+    Aside aside(false);
+    aside.begin(start<SlowFall>(false));
+    const auto updates_of_frame = [&] {
+        const int before = SlowFall::updates;
+        (void)aside.play_until(1, milliseconds(0));
+        return SlowFall::updates - before;
+    };
+    while (updates_of_frame() < 8) {
+    }
+    EXPECT_EQ(updates_of_frame(), 0);
+    while (updates_of_frame() == 0) {
+    }
 }
 
 }  // namespace

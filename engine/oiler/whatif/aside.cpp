@@ -9,12 +9,6 @@
 #include "oiler/process/priority.hpp"
 
 namespace oiler {
-namespace {
-
-/// The time in each frame. More makes frames late.
-constexpr std::chrono::milliseconds time_without_thread{3};
-
-}  // namespace
 
 Aside::Aside(bool wants_thread) {
     if (wants_thread) try {
@@ -42,10 +36,13 @@ LiveFigures Aside::play_until(std::int64_t steps, std::chrono::nanoseconds time)
     std::unique_lock lock(mutex_);
     if (std::exchange(mail_.back().steps, steps) != steps) posted_.notify_one();
     if (!thread_.joinable()) {
-        const Clock::time_point end = Clock::now() + time_without_thread;
-        for (Clock::time_point now = Clock::now(); now < end && (has_work() || is_verdict_due(now));
-             now = Clock::now())
+        Clock::time_point now = Clock::now();
+        share_.begin_frame(now);
+        while (share_.has_time() && (has_work() || is_verdict_due(now))) {
             go_on(lock);
+            const Clock::time_point before = std::exchange(now, Clock::now());
+            share_.spend(now - before);
+        }
         return figures_;
     }
     published_.wait_for(lock, time,
@@ -65,8 +62,9 @@ void Aside::go_on(std::unique_lock<std::mutex>& lock) {
     posted.swap(mail_);
     lock.unlock();
     for (Posted& one : posted) take(std::move(one));
-    work();
+    const bool is_news = work();
     lock.lock();
+    if (!is_news) return;
     if (mail_.size() == 1) figures_ = known();
     published_.notify_one();
 }
@@ -105,19 +103,23 @@ bool Aside::goes_on_before_next() const {
            !has_player_input(next_->events);
 }
 
-void Aside::work() {
+bool Aside::work() {
     constexpr std::chrono::milliseconds time_of_verdict{100};
+    bool is_news = false;
     if (next_ && !goes_on_before_next()) {
         along_ = std::make_unique<PlayAlong>(std::move(*next_->from), along_.get());
         Posted begun = *std::exchange(next_, std::nullopt);
         begun.from.reset();
         take(std::move(begun));
+        is_news = true;
     }
-    if (along_->is_behind()) along_->take_step();
+    if (along_->is_behind() && along_->go_on()) is_news = true;
     if (const Clock::time_point now = Clock::now(); now >= next_verdict_) {
         along_->judge();
         next_verdict_ = now + time_of_verdict;
+        is_news = true;
     }
+    return is_news;
 }
 
 LiveFigures Aside::known() const {

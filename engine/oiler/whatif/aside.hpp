@@ -10,12 +10,13 @@
 #include <thread>
 #include <vector>
 
+#include "oiler/whatif/frame_share.hpp"
 #include "oiler/whatif/play_along.hpp"
 
 namespace oiler {
 
 /// A thread on which runs play along with a game. It lags behind if they take longer than the time
-/// that the game waits for them. If the machine gives no thread, they play along in 3 ms of each
+/// that the game waits for them. If the machine gives no thread, they play along in a share of each
 /// frame.
 class Aside {
 public:
@@ -46,13 +47,13 @@ private:
     bool wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
     [[nodiscard]] bool has_work() const;
     [[nodiscard]] bool is_verdict_due(Clock::time_point now) const;
-    /// Takes the mail and plays a step along. The mutex is unlocked meanwhile.
+    /// Takes the mail and plays a part of a step along. The mutex is unlocked meanwhile.
     void go_on(std::unique_lock<std::mutex>& lock);
     void take(Posted posted);
     /// Whether the round that is played along goes on to its end before the next begins.
     [[nodiscard]] bool goes_on_before_next() const;
-    /// Plays a step along, or begins.
-    void work();
+    /// Plays a part of a step along, or begins. Returns whether more is known.
+    bool work();
     [[nodiscard]] LiveFigures known() const;
 
     std::mutex mutex_;
@@ -60,6 +61,7 @@ private:
     std::condition_variable published_;
     std::vector<Posted> mail_ = std::vector<Posted>(1);  ///< never empty; the last one grows
     LiveFigures figures_;
+    FrameShare share_{Clock::now()};  ///< without a thread
 
     // Of the thread alone, if there is one:
     std::unique_ptr<PlayAlong> along_;

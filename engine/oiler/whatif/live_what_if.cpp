@@ -72,7 +72,7 @@ void LiveWhatIf::play_until(std::int64_t step) {
         return;
     }
     own_->has_come_to(step - first_);
-    while (own_->is_behind()) own_->take_step();
+    while (own_->is_behind()) own_->go_on();
     own_->judge();
     figures_ = own_->figures();
 }

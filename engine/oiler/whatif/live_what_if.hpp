@@ -15,8 +15,8 @@ namespace oiler {
 /// settings play along with the player's input. The game never sees them.
 class LiveWhatIf {
 public:
-    /// aside: on a thread of its own, for which a frame waits 0.3 ms at most; frame: in the calls,
-    /// for 3 ms each, as if the machine gave no thread; own: with all the time that it needs.
+    /// aside: on a thread of its own, for which a frame waits 0.3 ms at most; frame: in a share of
+    /// each frame, as if the machine gave no thread; own: with all the time that it needs.
     enum class Pace { aside, frame, own };
 
     /// Measures nothing before a start. `play` has the game's settings and controls. `make` is

@@ -82,17 +82,20 @@ std::vector<Stepping> PlayAlong::other_settings(const MakeGame& make,
     return others;
 }
 
-void PlayAlong::take_step() {
+bool PlayAlong::go_on() {
     try {
-        runs_->play_until(figures_.played++);
+        if (!runs_->play_part(figures_.played)) return false;
     } catch (const std::exception& error) {
-        return stop(error.what());
+        stop(error.what());
+        return true;
     }
+    ++figures_.played;
     figures_.energy_scale.add(runs_->recorded_game().world().energy());
     figures_.last = is_behind() ? nullptr : runs_->drawn();
-    if (!runs_->certain() || runs_->recorded().other_play_from) return;
+    if (!runs_->certain() || runs_->recorded().other_play_from) return true;
     if (figures_.errors.size() >= most_errors) figures_.errors.erase(figures_.errors.begin());
     figures_.errors.push_back(static_cast<float>(runs_->recorded().distance_now));
+    return true;
 }
 
 void PlayAlong::stop(std::string reason) {

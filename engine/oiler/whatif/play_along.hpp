@@ -72,8 +72,9 @@ public:
     [[nodiscard]] bool is_behind() const { return is_behind(play_.recording.steps); }
     /// Whether this is a whole round without input, which a next one may repeat.
     [[nodiscard]] bool can_repeat() const;
-    /// Plays a step along. Measuring stops if the runs cannot go on.
-    void take_step();
+    /// Plays a part of a step along. Returns whether that was its last. Measuring stops if the runs
+    /// cannot go on.
+    bool go_on();
     [[nodiscard]] bool is_judged() const { return !runs_ || figures_.played == judged_; }
     /// Judges what was measured, if that is new.
     void judge();

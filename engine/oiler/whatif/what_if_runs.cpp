@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -331,11 +332,30 @@ WhatIfRuns::WhatIfRuns(const RecordedPlay& play, const std::vector<Stepping>& st
             std::max<std::int64_t>(longest_, std::llround(std::ceil(stepping.rate.dt() / dt)));
 }
 
-void WhatIfRuns::play_until(std::int64_t step) {
-    const bool is_known = play_reference(step);
-    before_ = runs_.front()->moment();
+bool WhatIfRuns::play_part(std::int64_t step) {
+    if (instant_ < step * instants_per_step) {
+        play_instant();
+        return false;
+    }
+    if (run_ == 0) {
+        is_known_ = play_check(step);
+        before_ = runs_.front()->moment();
+    }
+    runs_[run_]->play_until(step, truth_, visible());
+    if (++run_ < runs_.size()) return false;
+    compare(step);
+    run_ = 0;
+    return true;
+}
+
+void WhatIfRuns::play_instant() {
+    instant_ = instant_ < 0 ? 0 : instant_ + stride_of(*runs_.front());
+    reference_.play_until_instant(instant_, &impacts_);
+    if (certain_) moments_.push_back({instant_, moment_of(reference_.game())});
+}
+
+void WhatIfRuns::compare(std::int64_t step) {
     step_ = step;
-    for (const auto& run : runs_) run->play_until(step, truth_, visible());
     if (!has_events_at_steps_) has_events_at_steps_ = has_event(before_, runs_.front()->moment());
     const std::vector<Reading> truth = reference_.game().readings();
     for (SettingRun* const run : {&reference_, &check_}) run->read(step, truth);
@@ -343,7 +363,7 @@ void WhatIfRuns::play_until(std::int64_t step) {
     if (const AnyGame& game = runs_.front()->game(); game.loop().quits())
         replay_.compare_end(runs_.front()->steps(), true);
     if (step > 0 && !runs_.front()->failed()) replay_.after(step - 1, runs_.front()->game());
-    if (!is_known) {
+    if (!is_known_) {
         for (const auto& run : runs_) run->settle();
         return;
     }
@@ -361,22 +381,15 @@ void WhatIfRuns::compare_end() {
     replay_.compare_end(recorded.steps(), recorded.game().loop().quits());
 }
 
-bool WhatIfRuns::play_reference(std::int64_t step) {
-    std::vector<TrueMoment> moments;
-    std::deque<TrueImpact> impacts;
-    const std::int64_t last = step * instants_per_step;
-    const std::int64_t stride = stride_of(*runs_.front());
-    for (std::int64_t i = step == 0 ? 0 : last - instants_per_step + stride; i <= last;
-         i += stride) {
-        reference_.play_until_instant(i, &impacts);
-        if (certain_) moments.push_back({i, moment_of(reference_.game())});
-    }
+bool WhatIfRuns::play_check(std::int64_t step) {
     check_.play_until(step);
     for (SettingRun* const run : {&reference_, &check_})
         if (run->failed())
             fail(Exit::diverged, "--what-if: the reference ({}) failed: {}",
                  table_text(run->result().stepping), run->result().failure);
-    const std::int64_t oldest = last - (longest_ + 1) * instants_per_step;
+    std::vector<TrueMoment> moments = std::exchange(moments_, {});
+    std::deque<TrueImpact> impacts = std::exchange(impacts_, {});
+    const std::int64_t oldest = (step - longest_ - 1) * instants_per_step;
     const auto forget = [oldest](auto& past) {
         while (!past.empty() && past.front().index < oldest) past.pop_front();
     };

@@ -168,7 +168,13 @@ public:
     /// Plays all runs until a recorded step begins, and compares them until there. Throws
     /// Error{diverged} if the reference fails, and Error{comparison_failed} if the recorded states
     /// differ.
-    void play_until(std::int64_t step);
+    void play_until(std::int64_t step) {
+        while (!play_part(step)) {
+        }
+    }
+    /// Plays one run until there, or the reference until its next instant. Returns whether that was
+    /// the last part, and all were compared.
+    [[nodiscard]] bool play_part(std::int64_t step);
     /// Throws Error{comparison_failed} if the recorded setting does not quit after all recorded
     /// steps, though the game did.
     void compare_end();
@@ -184,21 +190,30 @@ public:
     [[nodiscard]] bool certain() const { return certain_; }
 
 private:
-    /// Plays the reference and the check run, and keeps the reference's moments while it is
-    /// certain. Returns whether it is certain when that recorded step begins.
-    bool play_reference(std::int64_t step);
+    void play_instant();
+    /// Plays the check run, and keeps the reference's moments while it is certain. Returns whether
+    /// it is certain when that recorded step begins.
+    bool play_check(std::int64_t step);
     /// Compares the reference with the check run.
     bool check(std::int64_t step, const Moment& moment);
+    void compare(std::int64_t step);
     [[nodiscard]] double visible() const { return pixel_ + uncertainty_; }
 
     const Recording& recording_;
     Replay replay_;
     std::vector<std::unique_ptr<SettingRun>> runs_;  ///< the recorded setting and the others
     SettingRun reference_;
-    SettingRun check_;          ///< the check run: the reference at another rate
-    Moment before_;             ///< of the recorded setting, one step ago
-    TrueMotion truth_;          ///< since the slowest run's last step
-    std::int64_t step_ = 0;     ///< the last that was played
+    SettingRun check_;       ///< the check run: the reference at another rate
+    Moment before_;          ///< of the recorded setting, one step ago
+    TrueMotion truth_;       ///< since the slowest run's last step
+    std::int64_t step_ = 0;  ///< the last that was played
+    // Of the next step:
+    std::int64_t instant_ = -1;          ///< the last of the reference
+    std::vector<TrueMoment> moments_{};  ///< of the reference
+    std::deque<TrueImpact> impacts_{};   ///< of the reference
+    bool is_known_ = false;              ///< whether the reference is certain when it begins
+    std::size_t run_ = 0;                ///< the next
+
     std::int64_t longest_ = 1;  ///< the recorded steps that a step of the slowest run takes
     bool certain_ = true;
     bool has_events_at_steps_ = false;     ///< of the recorded setting
