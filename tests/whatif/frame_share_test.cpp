@@ -35,34 +35,33 @@ struct Display {
 
 TEST(FrameShare, GrowsWhileFramesComeInTime) {
     Display display{.drawing = microseconds(2'000)};
-    EXPECT_NEAR(display.show(30).first, 1, 0.1);
-    (void)display.show(300);  // 1.25^9 > 6
+    EXPECT_NEAR(display.show(30).first, 3, 0.1);
+    (void)display.show(15 * 30);  // 3 * 1.05^15 > 6
     const auto [mean, late] = display.show(300);
     EXPECT_NEAR(mean, 6, 0.1);
     EXPECT_EQ(late, 0);
 }
 
-// From 3.7 ms on, a window of 30 frames is late; until that is known, one is lost in each cycle of
-// some four windows.
+// From 3.7 ms on, a window of 30 frames is late: one of 14, because 2 * 1.05^13 > 3.7.
 TEST(FrameShare, GivesWayWhenFramesComeLate) {
     Display display{.drawing = microseconds(13'000)};
     (void)display.show(600);
-    const auto [mean, late] = display.show(1200);
+    const auto [mean, late] = display.show(14 * 30 * 3);
     EXPECT_GT(mean, 2);
     EXPECT_LT(mean, 3.7);
     EXPECT_GT(late, 0);
-    EXPECT_LE(late, 1200 / 4);
+    EXPECT_LE(late, 30 * 3);
 }
 
 TEST(FrameShare, GrowsWhereFramesAreAsLateWithoutIt) {
     Display display{.drawing = microseconds(17'000)};
-    (void)display.show(300);
+    (void)display.show(15 * 30);
     EXPECT_NEAR(display.show(300).first, 6, 0.1);
 }
 
 TEST(FrameShare, ALongPartTakesTheTimeOfLaterFrames) {
     Display display{.drawing = microseconds(2'000), .part = microseconds(10'000)};
-    EXPECT_NEAR(display.show(29).first, 1, 0.4) << "10 ms in each tenth frame";
+    EXPECT_NEAR(display.show(29).first, 3, 0.4) << "10 ms in three of ten frames";
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 
 namespace oiler {
 
-/// The time of each frame for work that could wait. It grows until frames come late, and gives way.
+/// The time of each frame for work that could wait. It grows slowly until frames come late, and then
+/// gives way.
 class FrameShare {
 public:
     using Clock = std::chrono::steady_clock;
@@ -20,11 +21,11 @@ public:
 private:
     using Milliseconds = std::chrono::duration<double, std::milli>;
 
-    static constexpr Milliseconds least{1};
+    static constexpr Milliseconds least{2};
     static constexpr Milliseconds most{6};
     static constexpr int frames_of_window = 30;
 
-    Milliseconds share_ = least;
+    Milliseconds share_{3};
     Milliseconds left_{0};
     Clock::time_point window_;                     ///< when it began
     int frames_ = 0;                               ///< since then

@@ -385,7 +385,7 @@ bool WhatIfRuns::play_check(std::int64_t step) {
     check_.play_until(step);
     for (SettingRun* const run : {&reference_, &check_})
         if (run->failed())
-            fail(Exit::diverged, "--what-if: the reference ({}) failed: {}",
+            fail(Exit::diverged, "the reference ({}) failed: {}",
                  table_text(run->result().stepping), run->result().failure);
     std::vector<TrueMoment> moments = std::exchange(moments_, {});
     std::deque<TrueImpact> impacts = std::exchange(impacts_, {});
