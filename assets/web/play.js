@@ -62,6 +62,7 @@ async function start(options, files) {
   const {promise, resolve} = withResolvers();
   const shown = playing = {module: null, ended: promise};
   let isLost = false, isOver = false;
+  canvas.addEventListener('contextmenu', event => event.preventDefault());
   canvas.addEventListener('webglcontextlost', () => { isLost = true; });
   canvas.addEventListener('keydown', ({code}) => { if (isOver && code === 'F9') play(); });
   const onEnd = reason => {
@@ -81,6 +82,7 @@ async function start(options, files) {
       onTitle: title => { document.title = title; },
       onText: tell,
       onEnd,
+      onRefusal: () => say('This browser refuses to fill the screen.'),
       takeWish() {
         const taken = wish;
         wish = null;

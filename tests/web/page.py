@@ -127,10 +127,41 @@ def touch(visit):
     visit.browser.touch("touchMove", (knob[0] - 60, knob[1]))
     visit.wait("find('rate').value < 240", "a finger drags the slider")
     visit.browser.touch("touchEnd")
-    visit.play("platformer")
-    before = visit.picture()
+    visit.play("cannon")
+    before = visit.still_picture()
     visit.tap("document.querySelector('[data-code=Space]')")
-    visit.wait_picture(lambda now: now != before, "the button Space of the page jumps")
+    visit.wait_picture(lambda now: now != before, "the button Space of the page fires")
+
+
+def full_screen(visit):
+    """Also after the browser has ended it; a refusal is told."""
+    visit.play("hello")
+    menu = "find('canvas').dispatchEvent(new MouseEvent('contextmenu', {cancelable: true}))"
+    visit.expect(not visit.browser.value(menu), "the right button opens the browser's menu")
+    for _ in range(2):
+        visit.browser.click("document.querySelector('[data-code=F11]')")
+        visit.wait("document.fullscreenElement === find('canvas')", "a full screen")
+        visit.browser.value("document.exitFullscreen()")
+        visit.wait("document.fullscreenElement === null", "its end")
+    visit.browser.value("void (find('canvas').requestFullscreen = () => Promise.reject())")
+    visit.browser.click("document.querySelector('[data-code=F11]')")
+    visit.wait("find('said').textContent.includes('refuses')", "the refusal")
+
+
+def pads(visit):
+    """The first pad of the standard layout plays, another one does not."""
+    visit.before_scripts("""const pad = mapping => ({id: 'pad', mapping, connected: true, index: 1,
+            timestamp: 0, axes: [0, 0, 0, 0], buttons: Array.from({length: 17},
+            () => ({pressed: false, touched: false, value: 0}))});
+        const pads = [null, pad(''), pad('standard'), null];
+        navigator.getGamepads = () => pads;""")
+    visit.play("cannon")
+    before = visit.still_picture()
+    visit.browser.value("pads[1].buttons[0].pressed = true")
+    visit.sleep(0.5)
+    visit.expect(visit.picture() == before, "a pad of an unknown layout plays")
+    visit.browser.value("pads[2].buttons[0].pressed = true")
+    visit.wait_picture(lambda now: now != before, "the pad's button fires")
 
 
 def bits(visit):
@@ -366,8 +397,8 @@ def main():
                 return answer
 
         def visit_all():
-            for check in (first_pictures, pictures, layout, settings, loop_keys, touch, bits, lab,
-                          recording_is_left, setting_is_kept, another_setting_is_not_native,
+            for check in (first_pictures, pictures, layout, settings, loop_keys, touch, full_screen,
+                          pads, bits, lab, recording_is_left, setting_is_kept, another_setting_is_not_native,
                           impossible_setting, hostile):
                 visiting(check)
             visiting(native_recordings, options.recordings)

@@ -91,6 +91,15 @@ class Visit:
     def wait_picture(self, is_right, words):
         self.until(lambda: is_right(self.picture()), words)
 
+    def still_picture(self):
+        """Once nothing moves."""
+        def is_still():
+            before = self.picture()
+            self.sleep(0.5)
+            return self.picture() == before
+        self.until(is_still, "a still picture")
+        return self.picture()
+
     def sleep(self, seconds):
         time.sleep(seconds)
 

@@ -30,6 +30,13 @@ EM_JS(char*, oiler_web_wish, (), {
     return wish ? stringToNewUTF8(wish) : 0;
 });
 EM_JS(bool, oiler_web_closes, (), { return Module.closes === true; });
+EM_JS(void, oiler_web_toggle_full_screen, (), {
+    const toggle = async () => {
+        if (document.fullscreenElement) await document.exitFullscreen();
+        else await Module.canvas.requestFullscreen();
+    };
+    toggle().catch(() => Module.onRefusal?.());
+});
 EM_JS(double, oiler_web_pixels, (), { return window.devicePixelRatio || 1; });
 // clang-format on
 EM_JS_DEPS(oiler_web, "$UTF8ToString,$stringToNewUTF8");
@@ -198,13 +205,19 @@ private:
         return EM_TRUE;
     }
 
-    /// The first pad of the standard layout.
+    /// Reads the first pad of the standard layout. Returns whether there is one.
+    static bool read_pad(EmscriptenGamepadEvent& pad) {
+        if (emscripten_sample_gamepad_data() != EMSCRIPTEN_RESULT_SUCCESS) return false;
+        for (int i = 0; i < emscripten_get_num_gamepads(); ++i)
+            if (emscripten_get_gamepad_status(i, &pad) == EMSCRIPTEN_RESULT_SUCCESS &&
+                pad.connected && std::string_view(pad.mapping) == "standard")
+                return true;
+        return false;
+    }
+
     void hand_out_pad(InputQueue& game) {
         EmscriptenGamepadEvent pad{};
-        const bool has_pad = emscripten_sample_gamepad_data() == EMSCRIPTEN_RESULT_SUCCESS &&
-                             emscripten_get_num_gamepads() > 0 &&
-                             emscripten_get_gamepad_status(0, &pad) == EMSCRIPTEN_RESULT_SUCCESS &&
-                             pad.connected;
+        const bool has_pad = read_pad(pad);
         if (!has_pad && !std::exchange(has_pad_, has_pad)) return;
         has_pad_ = has_pad;
         for (std::size_t i = 0; i < pads_of_dom.size(); ++i) {
@@ -290,12 +303,8 @@ public:
         if (std::exchange(told_, told) != told)
             oiler_web_text(told.line.c_str(), told.setting.c_str(), told.is_paused);
     }
-    void fill_screen(bool on) override {
-        if (on)
-            emscripten_request_fullscreen(canvas, EM_TRUE);
-        else
-            emscripten_exit_fullscreen();
-    }
+    /// The browser also refuses and ends a full screen itself, of which the game does not know.
+    void fill_screen(bool) override { oiler_web_toggle_full_screen(); }
     std::string name_on_layout(Key) const override { return ""; }
     void take_text(bool on) override { events_.take_text(on); }
     void present() override {}  // the browser shows a frame when its function returns
