@@ -398,8 +398,8 @@ def main():
 
         def visit_all():
             for check in (first_pictures, pictures, layout, settings, loop_keys, touch, full_screen,
-                          pads, bits, lab, recording_is_left, setting_is_kept, another_setting_is_not_native,
-                          impossible_setting, hostile):
+                          pads, bits, lab, recording_is_left, setting_is_kept,
+                          another_setting_is_not_native, impossible_setting, hostile):
                 visiting(check)
             visiting(native_recordings, options.recordings)
             visiting(page_recordings, options.recordings)
