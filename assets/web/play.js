@@ -10,9 +10,11 @@ let game = {};           // {name} of a demo, {file, text} of a scene of the lis
 let playing = null;      // {module, ended, isRecording}; module is null before and after the game
 let setting = '';        // such as rk4@120
 let usualSetting = null; // that of the game without a link and without a choice
+let pausesFirst = false;  // the game, as its first frame is shown
 let wish = null;         // setting that the game takes next
 
 function complain(reason) {
+  if (reason !== '') find('controls').inert = false;
   find('problem').textContent = reason;
   find('problem').hidden = reason === '';
 }
@@ -69,9 +71,10 @@ async function start(options, files) {
     shown.module = null;
     isOver = true;
     fixSetting(false);
+    pausesFirst = isLost && find('pause').ariaPressed === 'true';
     find('pause').ariaPressed = false;
     resolve();
-    if (isLost) play(files[recordingFile] ? options : chosenOptions(), files);
+    if (isLost) beginAnew(files[recordingFile] ? options : chosenOptions(), files);
     else if (reason) complain(reason);
     else say(remarks.find(line => line.includes('replay')) ?? 'The game has ended.');
   };
@@ -99,7 +102,15 @@ async function start(options, files) {
   }
 }
 
+async function beginAnew(options, files) {
+  await play(options, files);
+  say('The browser took the picture away: the game has begun anew.');
+}
+
 function tell(line, now, isPaused) {
+  find('controls').inert = false;
+  if (pausesFirst) pressKey('F3');
+  pausesFirst = false;
   showLine(line);
   find('pause').ariaPressed = isPaused;
   if (now === setting) return;
@@ -115,17 +126,23 @@ function sendKey(type, code) {
   find('canvas').dispatchEvent(new KeyboardEvent(type, {code, key: code, bubbles: true}));
 }
 
+function pressKey(code) {
+  sendKey('keydown', code);
+  sendKey('keyup', code);
+}
+
 for (const button of document.querySelectorAll('[data-code]')) {
   const {code} = button.dataset;
   // The game keeps the focus.
   button.addEventListener('mousedown', event => event.preventDefault());
-  button.addEventListener('pointerdown', () => sendKey('keydown', code));
+  button.addEventListener('pointerdown', () => {
+    if (document.activeElement === find('rate')) find('canvas').focus();  // takes what was typed
+    sendKey('keydown', code);
+  });
   for (const type of ['pointerup', 'pointerleave', 'pointercancel'])
     button.addEventListener(type, () => sendKey('keyup', code));
   button.addEventListener('click', event => {
-    if (event.detail > 0) return;  // not by the keyboard
-    sendKey('keydown', code);
-    sendKey('keyup', code);
+    if (event.detail === 0) pressKey(code);  // by the keyboard
   });
 }
 
@@ -147,8 +164,12 @@ async function listMethods() {
 let settingTimer;
 for (const id of ['rate', 'method'])
   find(id).addEventListener('change', () => {
-    if (!find('rate').reportValidity()) return;
-    const wanted = wish = `${find('method').value}@${find('rate').value}`;
+    say('');
+    if (!find('rate').checkValidity()) {
+      say('A rate is a whole number from 1 to 1,000,000 Hz.');
+      return showSetting();
+    }
+    const wanted = wish = `${find('method').value}@${find('rate').valueAsNumber}`;
     if (!playing?.module) return play();
     clearTimeout(settingTimer);
     settingTimer = setTimeout(() => {
@@ -211,6 +232,7 @@ find('record').addEventListener('click', async () => {
   const name = `${recordedGame}.rec`;
   save(module.FS.readFile(recordingFile), name);
   if (plays === recordedPlay) await play();
+  await queue;
   say(`${name} is saved: open it here, or give it to ${recordedGame} --replay.`);
 });
 
@@ -250,11 +272,18 @@ async function replay(bytes, header) {
   }
   if (!isDemo(name))
     return complain('This recording is of a game that is not here: replay it with its program.');
+  const before = {game, usualSetting, setting};
   if (name !== game.name) {
     show({name});
     usualSetting = '';  // unknown: links name the setting
   }
   await play(['--replay', recordingFile], {[recordingFile]: bytes});
+  if (playing.module || find('problem').hidden) return;
+  const reason = find('problem').textContent;
+  show(before.game);
+  ({usualSetting, setting} = before);
+  await play();
+  complain(reason);
 }
 
 find('file').addEventListener('change', ({target}) => {
@@ -288,7 +317,7 @@ function show(newGame) {
   find('record').hidden = isScene();
   find('canvas').ariaLabel = `Picture of ${find('title').textContent}`;
   document.body.classList.toggle('scene', isScene());
-  setReady(!game.file);
+  setReady(!game.file || game.text !== undefined);
 }
 
 async function begin() {

@@ -35,15 +35,20 @@ async function playText() {
   playing.module.FS.writeFile(scenePath(), text);
 }
 
+const ofEarlierText = 'Of the scene before it was edited:\n';
 find('text').addEventListener('input', () => {
   clearTimeout(typing);
   showMistake('');
+  say('');
+  const results = find('results').textContent;
+  if (results !== '' && !results.startsWith(ofEarlierText)) find('results').prepend(ofEarlierText);
   typing = setTimeout(playText, 200);
 });
 
 // Shows the lines of a command as they come, and how far it is.
 async function measure(args) {
   measuring?.cancel();
+  say('');
   find('lab').hidden = find('busy').hidden = false;
   find('results').textContent = find('progress').textContent = '';
   find('results').ariaBusy = true;

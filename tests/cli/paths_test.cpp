@@ -43,6 +43,7 @@ std::string line_of(const CommandOfHelp& command) {
     std::string line = "oiler " + command.name;
     if (!command.input.empty()) line += " scene.toml";
     if (command.input == "GOLDEN") line += " scene.toml";
+    if (command.name == "diverge") line += " scene.toml scene.toml";
     if (command.name == "play") line += " --headless --golden none";
     return line + " ";
 }

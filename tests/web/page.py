@@ -281,6 +281,66 @@ def impossible_setting(visit):
     visit.wait_picture(has_colours, "the scene at its own setting")
 
 
+def while_it_loads(visit):
+    """Nothing can be chosen that would be forgotten."""
+    visit.before_scripts("""const {compileStreaming} = WebAssembly;
+        WebAssembly.compileStreaming = async (...all) => {
+            await new Promise(done => { window.goOn = done; });
+            return compileStreaming(...all); }""")
+    visit.open("hello&setting=rk4@40")
+    visit.wait("'goOn' in window", "the program")
+    visit.expect(visit.browser.value("find('controls').inert"), "controls before there is a game")
+    visit.browser.value("goOn()")
+    visit.wait("!find('controls').inert", "the controls")
+    visit.wait_setting("rk4@40", "the setting of the link")
+
+
+def typed_rate(visit):
+    visit.play("hello")
+    for typed in ("0", "1.5", "9999999", ""):
+        visit.fill("rate", typed)
+        visit.wait("find('said').textContent.includes('whole number')", f"a rate of {typed}")
+        visit.expect(visit.browser.value("find('rate').value") == "60", f"{typed} is left")
+    visit.fill("rate", "1e3")
+    visit.wait_setting("semi_implicit_euler@1000", "a rate of 1e3")
+    visit.type("70", "rate")
+    visit.click("restart")
+    visit.wait_setting("semi_implicit_euler@70", "a rate that was typed before a restart")
+
+
+def lost_context(visit):
+    """A game that was paused begins anew in a pause; a recording is saved."""
+    lose = """find('canvas').old = true;
+        find('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()"""
+    visit.play("hello")
+    visit.click("pause")
+    visit.wait("find('pause').ariaPressed === 'true'", "the pause")
+    visit.browser.value(lose)
+    visit.wait("!find('canvas').old", "a new canvas")
+    visit.wait("find('said').textContent.includes('anew')", "a word on that")
+    visit.wait("find('pause').ariaPressed === 'true'", "the pause of the new game")
+    visit.click("record")
+    visit.wait("playing.isRecording", "a recording")
+    visit.download(lambda: visit.browser.value(lose), "hello.rec")
+    visit.wait("find('said').textContent.includes('is saved')", "a word on the recording")
+
+
+def edits_make_old(visit):
+    visit.play("scene=jump.toml")
+    visit.wait("!find('bits').disabled", "the text of the scene")
+    visit.browser.click("document.querySelector('[data-command=rates]')")
+    visit.wait("find('results').ariaBusy === 'false'", "the rates")
+    visit.click("bits")
+    visit.wait("find('said').textContent.includes('equal to the native')", "the bits")
+    visit.type((SCENES / "jump.toml").read_text().replace("9.0", "8.0"))
+    visit.expect(visit.text("said") == "", "the verdict on the bits of another scene")
+    visit.expect(visit.text("results").startswith("Of the scene before"), "results of another scene")
+    visit.browser.click("document.querySelector('[data-command=rates]')")
+    visit.expect("complete" not in visit.text("said"), "results are complete before they are there")
+    visit.wait("find('said').textContent.includes('complete')", "the rates")
+    visit.expect(not visit.text("results").startswith("Of the scene before"), "new results are old")
+
+
 def editor(visit):
     visit.play("scene=jump.toml")
     visit.wait("find('text').value", "the text of the scene")
@@ -353,6 +413,7 @@ def hostile(visit):
         (visit.drop_file if name.endswith(".toml") else visit.give_file)(visit.folder / name)
         if words:
             visit.wait(f"find('problem').textContent.includes('{words}')", f"{name}: {words}")
+            visit.wait("find('title').textContent === 'jump' && !!playing.module", "jump goes on")
         else:
             visit.wait("location.hash.startsWith('#deflated=') && find('text').value", name)
     visit.wait("find('mistake').textContent.startsWith('Line 1')", "markup is no scene")
@@ -399,7 +460,8 @@ def main():
         def visit_all():
             for check in (first_pictures, pictures, layout, settings, loop_keys, touch, full_screen,
                           pads, bits, lab, recording_is_left, setting_is_kept,
-                          another_setting_is_not_native, impossible_setting, hostile):
+                          another_setting_is_not_native, impossible_setting, while_it_loads,
+                          typed_rate, lost_context, edits_make_old, hostile):
                 visiting(check)
             visiting(native_recordings, options.recordings)
             visiting(page_recordings, options.recordings)

@@ -83,7 +83,13 @@ class Visit:
         self.expect(holds, f"waited in vain: {words}")
 
     def wait(self, condition, words):
-        self.until(lambda: self.browser.value(condition), words)
+        def holds():
+            try:
+                return self.browser.value(condition)
+            except RuntimeError as error:
+                if "navigated" not in str(error):  # a page that loads another one is asked again
+                    raise
+        self.until(holds, words)
 
     def wait_setting(self, setting, words):
         self.wait(f"setting === '{setting}'", f"{words}: {setting}")
