@@ -6,12 +6,12 @@
 const find = id => document.getElementById(id);
 const recordingFile = 'recording';
 
-let game = {};           // {name} of a demo, {file, text} of a scene of the list, {text} of another
-let playing = null;      // {module, ended, isRecording}; module is null before and after the game
-let setting = '';        // such as rk4@120
-let usualSetting = null; // that of the game without a link and without a choice
-let pausesFirst = false;  // the game, as its first frame is shown
-let wish = null;         // setting that the game takes next
+let game = {};            // {name} of a demo, {file, text} of a listed scene, {text} of another
+let playing = null;       // {module, ended, isRecording}; module is null before and after the game
+let setting = '';         // such as rk4@120
+let usualSetting = null;  // that of the game without a link and without a choice
+let wish = null;          // setting that the game takes next
+let pausesFirst = false;  // whether a new game is paused at its first frame
 
 function complain(reason) {
   if (reason !== '') find('controls').inert = false;
@@ -164,6 +164,7 @@ async function listMethods() {
 let settingTimer;
 for (const id of ['rate', 'method'])
   find(id).addEventListener('change', () => {
+    if (setting === '') return;  // there was no game yet
     say('');
     if (!find('rate').checkValidity()) {
       say('A rate is a whole number from 1 to 1,000,000 Hz.');

@@ -63,15 +63,19 @@ double seconds_of(const World& start, Run run) {
         const Clock::time_point begin = Clock::now();
         return run(world) ? seconds_since(begin) : unknown;
     }
-    const double both = mean_seconds([&] {
-        world = start;
-        return run(world);
-    });
-    const double copying = mean_seconds([&] {
-        world = start;
-        return true;
-    });
-    return std::max(0.0, both - copying);
+    // Another program may have slowed the copying alone.
+    double time = 0;
+    for (int tries = 0; tries < 3 && time <= 0; ++tries) {
+        const double both = mean_seconds([&] {
+            world = start;
+            return run(world);
+        });
+        time = both - mean_seconds([&] {
+                   world = start;
+                   return true;
+               });
+    }
+    return time < 0 ? 0 : time;  // `unknown` stays
 }
 
 /// The work of a game between two frames: it replaces the fastest cache's content.
