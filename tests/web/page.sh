@@ -13,7 +13,7 @@ root=$(realpath -m "$1")
 [ -e "$root/usr/bin/apt-get" ] || debootstrap --variant=minbase trixie "$root"
 mkdir -p build-web
 tests/web/hashes.py build/bin >build-web/hashes.json
-inside '.ci/page . -DOILER_WEB_HASHES=$PWD/build-web/hashes.json'
+inside '.ci/page . -DCMAKE_COMPILE_WARNING_AS_ERROR=ON -DOILER_WEB_HASHES=$PWD/build-web/hashes.json'
 
 build-bits/bin/bits_o0 >build-web/native.hashes
 for kernels in none baseline; do
