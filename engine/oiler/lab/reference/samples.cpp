@@ -19,7 +19,7 @@ constexpr double longest_scene = 100'000;  // s
 constexpr double fewest_per_second = 60;
 constexpr double fewest_samples = 20;
 /// The limit of bodies × samples, which are kept in memory several times.
-constexpr double most_kept_states = 1.5e6;
+constexpr double most_kept = 1.5e6;
 
 constexpr double touching = 1e-9;  // m
 
@@ -108,7 +108,7 @@ SampleTimes sample_times_of(const Scene& scene, const Bodies& start, const Densi
     const double wanted =
         density.times * std::max({fewest_per_second, fewest_samples / scene.duration,
                                   density.per_period * periods});
-    const double in_memory = most_kept_states / static_cast<double>(density.bodies) / scene.duration;
+    const double in_memory = most_kept / static_cast<double>(density.bodies) / scene.duration;
     const double most = std::floor(std::min(in_memory, density.most_per_second));
     SampleTimes samples{.per_second = std::llround(std::max(1.0, std::min(wanted, most)))};
     const double intervals = scene.duration * static_cast<double>(samples.per_second);
