@@ -11,6 +11,7 @@ let playing = null;       // {module, ended, isRecording}; module is null before
 let setting = '';         // such as rk4@120
 let usualSetting = null;  // that of the game without a link and without a choice
 let wish = null;          // setting that the game takes next
+let isTyping = false;     // a rate
 let pausesFirst = false;  // whether a new game is paused at its first frame
 
 function complain(reason) {
@@ -152,7 +153,7 @@ function showSetting() {
   if (![...find('method').options].some(option => option.value === method))
     find('method').append(new Option(method));
   find('method').value = method;
-  find('rate').value = rate;
+  if (!isTyping) find('rate').value = rate;
 }
 
 async function listMethods() {
@@ -161,9 +162,11 @@ async function listMethods() {
   showSetting();
 }
 
+find('rate').addEventListener('input', () => { isTyping = true; });
 let settingTimer;
 for (const id of ['rate', 'method'])
   find(id).addEventListener('change', () => {
+    isTyping = false;
     if (setting === '') return;  // there was no game yet
     say('');
     if (!find('rate').checkValidity()) {
