@@ -251,7 +251,7 @@ def setting_is_kept(visit):
     visit.wait("playing.isRecording", "a recording")
     visit.wait_setting("semi_implicit_euler@30", "the rate that was chosen before the recording")
     visit.click("record")
-    visit.wait("!playing.isRecording", "the end of the recording")
+    visit.wait("find('said').textContent.includes('is saved')", "the end of the recording")
     visit.browser.press("Escape", code="Escape")
     visit.wait("find('said').textContent.includes('ended')", "the end")
     visit.browser.press("F9", code="F9")
