@@ -47,7 +47,7 @@ async function readLink(hash) {
   if (key === 'scene') return {file: value, setting};
   if (key !== 'text' && key !== 'deflated') return {name: key, setting};
   const bytes = fromBase64Url(value);
-  // No scene of the longest length is packed into more. What as many bytes unfold to fits in memory.
+  // The longest scene takes no more, packed or not, and as many bytes unfold to 70 MB at most.
   if (bytes.length > longestScene + 1024) throw new RangeError('too long');
   const plain = key === 'text'
     ? bytes : await piped(bytes, new DecompressionStream('deflate-raw'));

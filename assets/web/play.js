@@ -157,12 +157,14 @@ function showSetting() {
 }
 
 async function listMethods() {
-  const {output} = await runOiler(['oiler', 'methods', '--json', '-'], {}).result;
+  const {failure, output} = await runOiler(['oiler', 'methods', '--json', '-'], {}).result;
+  if (failure !== '') return;  // the game tells why
   find('method').replaceChildren(...JSON.parse(output.join('')).map(({name}) => new Option(name)));
   showSetting();
 }
 
 find('rate').addEventListener('input', () => { isTyping = true; });
+find('rate').addEventListener('blur', () => { isTyping = false; });
 let settingTimer;
 for (const id of ['rate', 'method'])
   find(id).addEventListener('change', () => {

@@ -65,12 +65,12 @@ class Visit:
         except (OSError, RuntimeError, ValueError, LookupError, TypeError) as error:
             self.failures.append(f"stopped: {type(error).__name__}: {error}")
 
-    def all_failures(self, complains):
+    def all_failures(self):
         allowed = (self.origin, f"blob:{self.origin}", "data:", "blob:null/", *self.files)
-        complaints = self.browser.complaints(allowed) if complains else ()
         self.attempt(lambda visit: visit.expect(
             not visit.browser.value("'executed' in window"), "markup is executed"))
-        return self.failures + [c for c in complaints if OF_CHROMIUM not in c]
+        complaints = [c for c in self.browser.complaints(allowed) if OF_CHROMIUM not in c]
+        return self.failures + complaints
 
     def expect(self, holds, words):
         if not holds:

@@ -208,11 +208,11 @@ private:
     TrueMotion truth_;       ///< since the slowest run's last step
     std::int64_t step_ = 0;  ///< the last that was played
     // Of the next step:
-    std::int64_t instant_ = -1;          ///< the last of the reference
+    std::int64_t instant_ = -1;          ///< the last that the reference played
     std::vector<TrueMoment> moments_{};  ///< of the reference
     std::deque<TrueImpact> impacts_{};   ///< of the reference
     bool is_known_ = false;              ///< whether the reference is certain when it begins
-    std::size_t run_ = 0;                ///< the next
+    std::size_t run_ = 0;                ///< the next run
 
     std::int64_t longest_ = 1;  ///< the recorded steps that a step of the slowest run takes
     bool certain_ = true;
