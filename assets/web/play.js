@@ -15,7 +15,6 @@ let isTyping = false;     // a rate
 let pausesFirst = false;  // whether a new game is paused at its first frame
 
 function complain(reason) {
-  if (reason !== '') find('controls').inert = false;
   find('problem').textContent = reason;
   find('problem').hidden = reason === '';
 }
@@ -105,7 +104,7 @@ async function start(options, files) {
 
 async function beginAnew(options, files) {
   await play(options, files);
-  say('The browser took the picture away: the game has begun anew.');
+  if (playing.module) say('The browser took the picture away: the game has begun anew.');
 }
 
 function tell(line, now, isPaused) {
@@ -254,6 +253,7 @@ function save(bytes, download) {
 }
 
 async function open(file) {
+  await begun;
   if (file.size > 1 << 28) return complain('This file is too large: give a scene or a recording.');
   const bytes = new Uint8Array(await file.arrayBuffer());
   const [magic, header] = new TextDecoder().decode(bytes.subarray(0, 65536)).split('\n', 2);
@@ -278,13 +278,13 @@ async function replay(bytes, header) {
   }
   if (!isDemo(name))
     return complain('This recording is of a game that is not here: replay it with its program.');
-  const before = {game, usualSetting, setting};
+  const before = {game, usualSetting, setting}, hasGame = playing !== null;
   if (name !== game.name) {
     show({name});
-    usualSetting = '';  // unknown: links name the setting
+    usualSetting = setting = '';  // unknown: links name the setting
   }
   await play(['--replay', recordingFile], {[recordingFile]: bytes});
-  if (playing.module || find('problem').hidden) return;
+  if (!hasGame || playing.module || find('problem').hidden) return;
   const reason = find('problem').textContent;
   show(before.game);
   ({usualSetting, setting} = before);
@@ -321,6 +321,7 @@ function show(newGame) {
   find('title').textContent = game.name?.replaceAll('_', ' ') ?? game.file ?? 'A scene';
   find('scene').hidden = !isScene();
   find('record').hidden = isScene();
+  find('lab').hidden = !isScene() || find('results').textContent === '';
   find('canvas').ariaLabel = `Picture of ${find('title').textContent}`;
   document.body.classList.toggle('scene', isScene());
   setReady(!game.file || game.text !== undefined);
@@ -361,4 +362,5 @@ async function begin() {
 
 addEventListener('hashchange', () => location.reload());
 addEventListener('beforeunload', event => { if (playing?.isRecording) event.preventDefault(); });
-addEventListener('DOMContentLoaded', begin);
+let begun;
+addEventListener('DOMContentLoaded', () => { begun = begin(); });

@@ -40,8 +40,8 @@ find('text').addEventListener('input', () => {
   clearTimeout(typing);
   showMistake('');
   say('');
-  const results = find('results').textContent;
-  if (results !== '' && !results.startsWith(ofEarlierText)) find('results').prepend(ofEarlierText);
+  if (!find('lab').hidden && !find('results').textContent.startsWith(ofEarlierText))
+    find('results').prepend(ofEarlierText);
   typing = setTimeout(playText, 200);
 });
 

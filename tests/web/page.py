@@ -289,10 +289,16 @@ def while_it_loads(visit):
             return compileStreaming(...all); }""")
     visit.open("hello&setting=rk4@40")
     visit.wait("'goOn' in window", "the program")
+    (visit.folder / "large.toml").write_bytes(b"#" * 70_000)
+    visit.give_file(visit.folder / "large.toml")
+    visit.sleep(0.5)
     visit.expect(visit.browser.value("find('controls').inert"), "controls before there is a game")
     visit.browser.value("goOn()")
     visit.wait("!find('controls').inert", "the controls")
     visit.wait_setting("rk4@40", "the setting of the link")
+    visit.open("nothere")
+    visit.wait("find('problem').textContent.includes('no such demo')", "the refusal")
+    visit.expect(visit.browser.value("find('controls').inert"), "controls of no game")
 
 
 def typed_rate(visit):
@@ -345,6 +351,15 @@ def edits_make_old(visit):
     visit.expect("complete" not in visit.text("said"), "results are complete before they are there")
     visit.wait("find('said').textContent.includes('complete')", "the rates")
     visit.expect(not visit.text("results").startswith("Of the scene before"), "new results are old")
+    visit.browser.click("document.querySelector('[data-command=advise]')")
+    visit.type((SCENES / "jump.toml").read_text().replace("9.0", "7.0"))
+    visit.wait("find('results').ariaBusy === 'false'", "the advice")
+    visit.expect(visit.text("results").startswith("Of the scene before"), "advice for another scene")
+    file = visit.folder / "other.rec"
+    native(visit.programs, "hello", "--steps", 30, "--record", file)
+    visit.give_file(file)
+    visit.wait("location.hash === '#hello&setting=semi_implicit_euler@60'", "the link of the replay")
+    visit.expect(visit.browser.value("find('lab').hidden"), "results of another game")
 
 
 def editor(visit):
