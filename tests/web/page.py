@@ -252,6 +252,7 @@ def setting_is_kept(visit):
     visit.wait_setting("semi_implicit_euler@30", "the rate that was chosen before the recording")
     visit.click("record")
     visit.wait("find('said').textContent.includes('is saved')", "the end of the recording")
+    visit.wait_picture(has_colours, "the game after the recording")
     visit.browser.press("Escape", code="Escape")
     visit.wait("find('said').textContent.includes('ended')", "the end")
     visit.browser.press("F9", code="F9")
@@ -315,8 +316,8 @@ def typed_rate(visit):
     visit.wait_setting("semi_implicit_euler@70", "a rate that was typed before a restart")
     visit.type("90", "rate")
     visit.fill("rate", "70")
-    visit.browser.value("tell('', 'semi_implicit_euler@30', false)")
-    visit.expect(visit.browser.value("find('rate').value") == "30", "a field that is left is typed")
+    shown = visit.browser.value("tell('', 'semi_implicit_euler@30', false); find('rate').value")
+    visit.expect(shown == "30", "a field that is left is typed")
 
 
 def lost_context(visit):
