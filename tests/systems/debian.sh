@@ -62,7 +62,9 @@ printf "$line" Debian g++ Mesa build,s tests,s passed warnings hash osmesa,px eg
 for suite in "$@"; do
     make_root
     inside build "$(block 1)"; build=$took
-    inside tests "$(block 2)"; tests=$took passed=$(passed)
+    inside tests "$(block 2) || true"; tests=$took passed=$(passed)
+    failed=$(sed -n 's/.* \([0-9]*\) tests failed out of .*/\1/p' "$log")
+    [ "$failed" ] || fail "tests: not run"
     # Not those of packages that find no init system.
     warnings=$(cat "$logs/$suite"-{build,tests}.log | grep -v ^invoke-rc.d |
         grep -ciE 'warning( \([a-z]+\))?:|cmake .*warning') || true
@@ -81,6 +83,7 @@ for suite in "$@"; do
     fi
     printf "$line" "$suite" "$compiler" "$mesa" "$build" "$tests" "$passed" "$warnings" "$hash" \
         "$osmesa" "$egl" "$package" "$without"
+    [ "$failed" = 0 ] || log=$logs/$suite-tests.log fail "tests: $failed failed"
     [ "$warnings" = 0 ] || fail "$warnings warnings"
     [ "${first:=$hash}" = "$hash" ] || fail "other state hashes than in $1"
     leave
