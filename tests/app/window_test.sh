@@ -119,6 +119,16 @@ for stage in frame step picture "play along" inspector overlay draw present wait
     grep -q "\"name\":\"$stage\"" "$folder/profile.json" || fail "the profile has no '$stage'"
 done
 
+# A signal ends the window as Escape does, with its own exit code.
+"$program" --size 640x360 --quiet --json "$folder/stopped.json" &
+game=$!
+until_true window_focused || fail "no window for a signal"
+kill -TERM $game
+wait $game
+status=$?
+[ $status -eq 130 ] || fail "SIGTERM leaves with exit code $status"
+[ -s "$folder/stopped.json" ] || fail "SIGTERM leaves no report"
+
 # A divergence keeps the window, F9 restarts, and Escape leaves with 5 where it was the end.
 "$program" --size 640x360 --rate 1 --method explicit_euler --precision float 2>"$folder/err" &
 game=$!

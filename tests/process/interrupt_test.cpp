@@ -239,13 +239,14 @@ TEST(Interrupt, AClosedPipeIsAWriteError) {
     close(ends[1]);
 }
 
-TEST(Interrupt, ALimitOfFileSizeIsAWriteError) {
+TEST(Interrupt, ALimitOfFileSizeIsAWriteErrorAndLeavesTheRecording) {
     const Folder folder;
+    const std::string there = "cd " + folder.path().string() + "; ";
     const Outcome run = shell(
-        "cd " + folder.path().string() + "; ulimit -f 8; hello --steps 10000 --quiet --trace t.csv",
-        4);
+        there + "ulimit -f 16; hello --steps 10000 --quiet --trace t.csv --record play.rec", 4);
     EXPECT_TRUE(holds(run.err, "t.csv: File too large"));
-    EXPECT_TRUE(names_in(folder.path()).empty());
+    EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"play.rec"});
+    shell(there + "hello --replay play.rec --headless --png none --quiet", 0);
 }
 
 }  // namespace
