@@ -315,14 +315,19 @@ function setReady(isReady) {
     button.disabled = !isReady;
 }
 
+function showTitle() {
+  const file = isOfList(find('text').value) ? game.file : 'A scene';
+  find('title').textContent = game.name?.replaceAll('_', ' ') ?? file;
+  find('canvas').ariaLabel = `Picture of ${find('title').textContent}`;
+}
+
 function show(newGame) {
   game = newGame;
   usualSetting = null;
-  find('title').textContent = game.name?.replaceAll('_', ' ') ?? game.file ?? 'A scene';
+  showTitle();
   find('scene').hidden = !isScene();
   find('record').hidden = isScene();
   find('lab').hidden = !isScene() || find('results').textContent === '';
-  find('canvas').ariaLabel = `Picture of ${find('title').textContent}`;
   document.body.classList.toggle('scene', isScene());
   setReady(!game.file || game.text !== undefined);
 }

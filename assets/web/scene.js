@@ -39,6 +39,7 @@ const ofEarlierText = 'Of the scene before it was edited:\n';
 find('text').addEventListener('input', () => {
   clearTimeout(typing);
   showMistake('');
+  showTitle();
   say('');
   if (!find('lab').hidden && !find('results').textContent.startsWith(ofEarlierText))
     find('results').prepend(ofEarlierText);

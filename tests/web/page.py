@@ -347,6 +347,7 @@ def edits_make_old(visit):
     visit.wait("find('said').textContent.includes('equal to the native')", "the bits")
     visit.type((SCENES / "jump.toml").read_text().replace("9.0", "8.0"))
     visit.expect(visit.text("said") == "", "the verdict on the bits of another scene")
+    visit.expect(visit.text("title") == "A scene", "the name of the scene before")
     visit.expect(visit.text("results").startswith("Of the scene before"), "results of another scene")
     visit.browser.click("document.querySelector('[data-command=rates]')")
     visit.expect("complete" not in visit.text("said"), "results are complete before they are there")

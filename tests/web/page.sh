@@ -33,7 +33,7 @@ for job in '.github/workflows/frames.yml page' '.gitlab-ci.yml pages'; do
     read -r file name <<<"$job"
     rm -rf build-web/mygame
     build/bin/oiler new build-web/mygame
-    rm build-web/mygame/local.cmake
+    rm -f build-web/mygame/local.cmake
     part() { tests/ci_jobs/job.py "build-web/mygame/$file" "$name" "$1"; }
     [ "$(part image)" = debian:13 ]
     sed -i "s|OILER_REPOSITORY: \"\"|OILER_REPOSITORY: file://$PWD/build-web/oiler.git|" "build-web/mygame/$file"
