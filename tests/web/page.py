@@ -38,8 +38,10 @@ def first_pictures(visit):
 
 def game(visit):
     """The page of one game begins with it; its bits are those of the native program."""
-    visit.play("", "index.html")
-    visit.wait("document.querySelector('#line').textContent !== ''", "a line on the timestep")
+    visit.open("", "index.html")
+    visit.wait("location.pathname === '/play.html' && document.readyState === 'complete'", "the game")
+    visit.wait_picture(has_colours, "a picture")
+    visit.wait("find('line').textContent !== ''", "a line on the timestep")
     visit.click("bits")
     report = native(visit.programs, "project_game", "--steps", 600, "--json", "-").stdout
     visit.wait(f"find('said').textContent.includes('{json.loads(report)['state_hash']}')", "its bits")

@@ -27,6 +27,10 @@ class Handler(http.server.SimpleHTTPRequestHandler):
     def log_message(self, *_):
         pass
 
+    def copyfile(self, *files):
+        with contextlib.suppress(ConnectionError):  # the page loads another one
+            super().copyfile(*files)
+
 
 def has_colours(picture):
     rows = png.decode(picture[0]).rows
