@@ -205,10 +205,10 @@ TEST(Cloth, TearsItselfToPiecesBelowTheRateOfItsFastestWave) {
 TEST(Cloth, HangsFromTheNamedRateOn) {
     for (const auto& [method, rate] :
          {std::pair("velocity_verlet", 86), std::pair("semi_implicit_euler", 87)}) {
-        const auto threads = [&, method = method](int at) {
-            return threads_of(
-                fmt::format("cloth --quiet --steps 1000 --method {} --rate {}", method, at));
-        };
+        const auto threads =
+            [command = fmt::format("cloth --quiet --steps 1000 --method {}", method)](int at) {
+                return threads_of(fmt::format("{} --rate {}", command, at));
+            };
         EXPECT_EQ(threads(rate), all_threads) << method;
         EXPECT_LT(threads(rate - 1), all_threads) << method;
         const std::string text = texts_of(fmt::format("cloth --quiet --method {}", method), 1)[0];

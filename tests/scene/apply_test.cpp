@@ -11,7 +11,7 @@
 namespace oiler::test {
 namespace {
 
-const Stepping choice{.method = &find_method("rk4"), .rate = 120, .precision = Precision::single};
+const Stepping choice{.method = &find_method("rk4"), .rate = {120}, .precision = Precision::single};
 constexpr std::string_view body = "\n[[body]]\nvelocity = [1.0]\n";
 
 std::string applied(std::string_view text) { return apply(text, "test.toml", choice); }
@@ -177,8 +177,9 @@ TEST(Apply, RefusesInvalidScenes) {
 
 TEST(Apply, RefusesSettingsThatDoNotSuitTheScene) {
     const std::string text = with_body("[scene]\naxes = 1\n");
-    EXPECT_THROW((void)apply(text, "test.toml", {.method = &find_method("rk4"), .rate = 0}), Error);
-    const Stepping exact{.method = &find_method("exact"), .rate = 100};
+    EXPECT_THROW((void)apply(text, "test.toml", {.method = &find_method("rk4"), .rate = {0}}),
+                 Error);
+    const Stepping exact{.method = &find_method("exact"), .rate = {100}};
     const std::string_view attractor = "[[attractor]]\nposition = [5.0]\ngm = 1.0\n";
     EXPECT_NO_THROW((void)apply(text, "test.toml", exact));
     EXPECT_THROW((void)apply(text + std::string(attractor), "test.toml", exact), Error);

@@ -99,7 +99,7 @@ Real System::shortest_spring_period() const {
 }
 
 Orbit::Orbit(const Point& centre, Real gm, const Point& x, const Point& v)
-    : centre_(centre), v_(v), gm_(gm) {
+    : centre_(centre), v_(v) {
     for (std::size_t axis = 0; axis < 3; ++axis) d_[axis] = x[axis] - centre[axis];
     const Real r = std::sqrt(dot(d_, d_));
     a_ = 1 / (2 / r - dot(v, v) / gm);
@@ -230,7 +230,6 @@ Matrix exponential(const Matrix& a) {
 
 LinearSystem::LinearSystem(const System& system)
     : bodies_(system.bodies.size()), shortest_period_(system.shortest_spring_period()) {
-    const Real pi = std::acos(Real(-1));
     scale_ = std::isfinite(shortest_period_) ? 2 * pi / shortest_period_ : 1;
     const Eigen::Index n = index(bodies_);
     a_ = Matrix::Zero(2 * n + axes, 2 * n + axes);

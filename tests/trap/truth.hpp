@@ -121,7 +121,6 @@ private:
     Point centre_;
     Point d_;  ///< from the centre to the start
     Point v_;
-    Real gm_;
     Real a_ = 0;       ///< semi-major axis, m
     Real e_ = 0;       ///< eccentricity
     Real e_cos_ = 0;   ///< e·cos E of the start
