@@ -209,7 +209,7 @@ TEST(TraceFile, NamesTheReasonWhyItCannotBeRead) {
     const Folder folder;
     for (const auto& [path, reason] : {std::pair(folder / "none", "No such file or directory"),
                                        std::pair(folder.path(), "Is a directory")})
-        EXPECT_EQ(line_of_error(Exit::usage, [&] { (void)read_trace(path); }),
+        EXPECT_EQ(line_of_error(Exit::usage, [&file = path] { (void)read_trace(file); }),
                   path.string() + ": cannot be read: " + reason);
 }
 

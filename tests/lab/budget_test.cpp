@@ -141,7 +141,8 @@ TEST(Budget, ThatIsTooTightIsRefused) {
     for (const auto& [text, named] :
          {std::pair{with_position("1e-14"), "position_error"},
           std::pair{article_spring + "[budget]\nenergy_drift = 1e-15\n", "energy_drift = 1e-15"}}) {
-        const std::string line = line_of_error(Exit::usage, [&] { (void)checked(text); });
+        const std::string line =
+            line_of_error(Exit::usage, [&scene = text] { (void)checked(scene); });
         EXPECT_TRUE(holds(line, "[budget]"));
         EXPECT_TRUE(holds(line, named));
         EXPECT_FALSE(holds(line, "\n"));

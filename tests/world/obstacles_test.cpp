@@ -137,13 +137,13 @@ TEST(Obstacles, AreLeftWhereTheCurveNoLongerPresses) {
     for (const auto& [name, speed] :
          {std::pair{"slide_off_circle", 0.5}, {"slide_off_circle_friction", 1.0}}) {
         const auto& all = references()["extras"];
-        const auto slide =
-            *std::ranges::find_if(all, [&](const auto& e) { return e["name"] == name; });
+        const auto slide = *std::ranges::find_if(
+            all, [&wanted = name](const auto& e) { return e["name"] == wanted; });
         const double friction = real(slide["friction"]);
         const double exact =
             real(slide["leaves"]["speed"]) * std::cos(real(slide["leaves"]["theta"]));
-        const auto error = [&](const char* method, int rate) {
-            return std::abs(speed_off_dome(method, rate, friction, speed) - exact);
+        const auto error = [&, at_first = speed](const char* method, int rate) {
+            return std::abs(speed_off_dome(method, rate, friction, at_first) - exact);
         };
         EXPECT_NEAR(std::log2(error("semi_implicit_euler", 80) / error("semi_implicit_euler", 160)),
                     1, 0.1);
