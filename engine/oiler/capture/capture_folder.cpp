@@ -108,8 +108,8 @@ std::vector<fs::path> capture_files(const fs::path& folder) {
         if (is_capture_file(at->path().filename().string())) files.push_back(at->path());
     if (error && error != std::errc::no_such_file_or_directory)
         fail(Exit::io, "cannot read {}: {}", folder.string(), error.message());
-    std::ranges::partition(files,
-                           [](const fs::path& file) { return file.filename() != manifest_name; });
+    std::partition(files.begin(), files.end(),
+                   [](const fs::path& file) { return file.filename() != manifest_name; });
     return files;
 }
 

@@ -242,7 +242,8 @@ private:
                                             : "no method is stable at any of the rates");
             return;
         }
-        std::ranges::stable_partition(front_, [&](const TradeoffRow& row) { return in_time(row); });
+        std::stable_partition(front_.begin(), front_.end(),
+                              [&](const TradeoffRow& row) { return in_time(row); });
         advice_.best = front_.front();
         const Judgement& best = advice_.best->judgement;
         // A few roundings of the largest coordinate.
