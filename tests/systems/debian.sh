@@ -4,8 +4,8 @@
 # repository, it runs both commands of README.md as they stand, takes the hash of all state hashes,
 # compares the golden frames, builds and installs the package, builds a game with it, and repeats the
 # tests without OSMesa. It prints a line for each Debian; its logs are in frames/debian. It exits with 1
-# if a command fails or warns, or if hashes differ. It needs root, debootstrap and jq. If CCACHE_DIR is
-# set, the compilers use it.
+# if a command fails or warns, or if hashes differ; if tests fail, after its line. It needs root,
+# debootstrap and jq. If CCACHE_DIR is set, the compilers use it.
 set -euo pipefail
 # Mounts end with this process.
 [ "${OILER_MOUNTS:-}" ] || OILER_MOUNTS=own exec unshare --mount --propagation private "$0" "$@"

@@ -233,7 +233,9 @@ TEST(Sliding, AcrossASlopeStops) {
     const double pull = g * std::sin(w);
     const double grip = 0.4 * g * std::cos(w);
     // Across at 3 m/s, and uphill at 1 m/s. Downhill is (−cos w, −sin w, 0).
-    const auto stop = stop_of_puck(3, -1, pull, grip);  // across, down
+    const std::array stop = stop_of_puck(3, -1, pull, grip);
+    const double across = stop[0];
+    const double down = stop[1];
     const auto error = [&](const char* method, int rate) {
         World world =
             world_of(method, rate, 3, {0, -g, 0}, {{.normal = {-0.1, 1, 0}, .friction = 0.4}});
@@ -242,8 +244,8 @@ TEST(Sliding, AcrossASlopeStops) {
         world.step(2 * rate);
         EXPECT_EQ(length(world.velocity(puck)), 0) << method << rate;
         const Vec3 end = world.position(puck);
-        return std::hypot(end[0] + stop[1] * std::cos(w), end[1] + stop[1] * std::sin(w),
-                          end[2] - stop[0]);
+        return std::hypot(end[0] + down * std::cos(w), end[1] + down * std::sin(w),
+                          end[2] - across);
     };
     for (const char* method :
          {"semi_implicit_euler", "velocity_verlet", "rk4", "exact", "implicit_midpoint", "pefrl"})
