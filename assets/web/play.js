@@ -252,8 +252,12 @@ function save(bytes, download) {
   setTimeout(() => URL.revokeObjectURL(href), 60000);
 }
 
-async function open(file) {
-  await begun;
+// One file after the other.
+function open(file) {
+  begun = begun.catch(() => {}).then(() => read(file));
+}
+
+async function read(file) {
   if (file.size > 1 << 28) return complain('This file is too large: give a scene or a recording.');
   const bytes = new Uint8Array(await file.arrayBuffer());
   const [magic, header] = new TextDecoder().decode(bytes.subarray(0, 65536)).split('\n', 2);
@@ -278,7 +282,8 @@ async function replay(bytes, header) {
   }
   if (!isDemo(name))
     return complain('This recording is of a game that is not here: replay it with its program.');
-  const before = {game, usualSetting, setting}, hasGame = playing !== null;
+  const before = {game, usualSetting, setting};
+  const hasGame = playing !== null || game.text !== undefined;
   if (name !== game.name) {
     show({name});
     usualSetting = setting = '';  // unknown: links name the setting
@@ -324,6 +329,8 @@ function showTitle() {
 function show(newGame) {
   game = newGame;
   usualSetting = null;
+  clearTimeout(typing);
+  checking?.cancel();
   showTitle();
   find('scene').hidden = !isScene();
   find('record').hidden = isScene();

@@ -364,6 +364,12 @@ def edits_make_old(visit):
     visit.give_file(file)
     visit.wait("location.hash === '#hello&setting=semi_implicit_euler@60'", "the link of the replay")
     visit.expect(visit.browser.value("find('lab').hidden"), "results of another game")
+    visit.play("scene=jump.toml")
+    visit.wait("!find('bits').disabled", "the text of the scene")
+    visit.type((SCENES / "jump.toml").read_text().replace("9.0", "8.0"))
+    visit.give_file(file)
+    visit.sleep(2)
+    visit.wait("location.hash === '#hello&setting=semi_implicit_euler@60'", "the link after an edit")
 
 
 def editor(visit):
@@ -442,6 +448,14 @@ def hostile(visit):
         else:
             visit.wait("location.hash.startsWith('#deflated=') && find('text').value", name)
     visit.wait("find('mistake').textContent.startsWith('Line 1')", "markup is no scene")
+    visit.give_file(visit.folder / "c.rec")
+    visit.wait("find('problem').textContent.includes('hello: --replay')", "a recording after it")
+    visit.wait("find('title').textContent === 'A scene' && !find('scene').hidden", "the scene stays")
+    visit.play("jump")
+    visit.browser.value("""['hello', 'cannon'].map(game => open(
+        new File([`OILERREC 3\\n{"game":"${game}"}\\n`], 'two.rec'))), 1""")
+    visit.wait("find('problem').textContent.includes('cannon: --replay')", "the second of two files")
+    visit.wait("find('title').textContent === 'jump' && !!playing.module", "jump goes on after two")
 
 
 def as_files(visit, folder):
